@@ -1,0 +1,132 @@
+//! A point cloud: positions, and what the file said about each point.
+
+use glam::{DVec3, Vec3};
+
+/// A per-point column whose length is not the number of points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("{rows} {column} for {points} points")]
+pub struct LengthMismatch {
+    /// What the column holds.
+    pub column: &'static str,
+    /// Rows in the column.
+    pub rows: usize,
+    /// Points in the cloud.
+    pub points: usize,
+}
+
+/// Points of one fruit as one camera saw them, in the file's unit and frame.
+///
+/// Every position is finite, and every column that is present has one row a point; the fields are
+/// private to keep it so.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Cloud {
+    positions: Vec<DVec3>,
+    normals: Option<Vec<Vec3>>,
+    colors: Option<Vec<[u8; 4]>>,
+    labels: Option<Vec<i32>>,
+}
+
+impl Cloud {
+    /// A cloud of bare positions. Those that are not finite are left out: nothing downstream can
+    /// place them. (A reader that has other columns drops such rows itself, and counts them.)
+    pub fn new(mut positions: Vec<DVec3>) -> Self {
+        positions.retain(|p| p.is_finite());
+        Self {
+            positions,
+            ..Self::default()
+        }
+    }
+
+    /// Adds the file's normals, one a point; a zero vector stands for "none".
+    ///
+    /// # Errors
+    /// Where there is not one for each point.
+    pub fn with_normals(mut self, normals: Vec<Vec3>) -> Result<Self, LengthMismatch> {
+        self.check("normals", normals.len())?;
+        self.normals = Some(normals);
+        Ok(self)
+    }
+
+    /// Adds colors as red, green, blue, alpha, 0 to 255 (sRGB), one a point.
+    ///
+    /// # Errors
+    /// Where there is not one for each point.
+    pub fn with_colors(mut self, colors: Vec<[u8; 4]>) -> Result<Self, LengthMismatch> {
+        self.check("colors", colors.len())?;
+        self.colors = Some(colors);
+        Ok(self)
+    }
+
+    /// Adds integer labels, one a point. Our own files use [`Cloud::FRUIT`] and its neighbors.
+    ///
+    /// # Errors
+    /// Where there is not one for each point.
+    pub fn with_labels(mut self, labels: Vec<i32>) -> Result<Self, LengthMismatch> {
+        self.check("labels", labels.len())?;
+        self.labels = Some(labels);
+        Ok(self)
+    }
+
+    /// The label of the fruit's own points.
+    pub const FRUIT: i32 = 0;
+    /// The label of the peduncle's points.
+    pub const PEDUNCLE: i32 = 1;
+    /// The label of a leaf in front of the fruit.
+    pub const LEAF: i32 = 2;
+
+    fn check(&self, column: &'static str, rows: usize) -> Result<(), LengthMismatch> {
+        let points = self.len();
+        if rows == points {
+            Ok(())
+        } else {
+            Err(LengthMismatch { column, rows, points })
+        }
+    }
+
+    /// How many points there are.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there is no point at all.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Positions in the file's unit and frame.
+    pub fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
+    /// The file's normals as they stand there (any length; zero for "none"), if it has any.
+    pub fn normals(&self) -> Option<&[Vec3]> {
+        self.normals.as_deref()
+    }
+
+    /// Red, green, blue, alpha, 0 to 255, if the file has colors.
+    pub fn colors(&self) -> Option<&[[u8; 4]]> {
+        self.colors.as_deref()
+    }
+
+    /// Labels, if the file has any.
+    pub fn labels(&self) -> Option<&[i32]> {
+        self.labels.as_deref()
+    }
+
+    /// The points at `indices`, in that order, with all their columns.
+    ///
+    /// # Panics
+    /// Where an index is not below [`Cloud::len`].
+    #[must_use]
+    pub fn select(&self, indices: &[usize]) -> Self {
+        fn pick<T: Copy>(column: &[T], indices: &[usize]) -> Vec<T> {
+            indices.iter().map(|&i| column[i]).collect()
+        }
+        Self {
+            positions: pick(&self.positions, indices),
+            normals: self.normals().map(|c| pick(c, indices)),
+            colors: self.colors().map(|c| pick(c, indices)),
+            labels: self.labels().map(|c| pick(c, indices)),
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Pieces of work on every core, with results in their own order.
+//!
+//! The pieces depend on the data alone, never on how many threads there are, so sums over them
+//! come out the same to the bit wherever they run.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+#[cfg(feature = "parallel")]
+use rayon::prelude::*;
+
+use super::{Cancelled, Watch};
+
+/// Cuts `0..len` into ranges of `piece` (the last may be shorter), runs `work` on each, and returns
+/// the results in the order of the ranges.
+pub(crate) fn map_pieces<T: Send>(
+    len: usize,
+    piece: usize,
+    watch: &dyn Watch,
+    work: impl Fn(Range<usize>) -> T + Sync + Send,
+) -> Result<Vec<T>, Cancelled> {
+    let pieces = len.div_ceil(piece);
+    let done = AtomicUsize::new(0);
+    let one = |i: usize| {
+        if watch.is_cancelled() {
+            return Err(Cancelled);
+        }
+        let result = work(i * piece..((i + 1) * piece).min(len));
+        watch.advanced(done.fetch_add(1, Ordering::Relaxed) + 1, pieces);
+        Ok(result)
+    };
+    #[cfg(feature = "parallel")]
+    return (0..pieces).into_par_iter().map(one).collect();
+    #[cfg(not(feature = "parallel"))]
+    (0..pieces).map(one).collect()
+}

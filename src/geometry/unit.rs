@@ -1,0 +1,47 @@
+//! The unit of a file's coordinates.
+
+use serde::{Deserialize, Serialize};
+
+/// The unit that a file's coordinates are in. The method's distances are centimeters (Eq. 15: τ is
+/// in centimeters per radian), so every stage that adds a distance asks for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Unit {
+    /// Meters, as most depth cameras' software writes.
+    #[serde(rename = "m")]
+    Meter,
+    /// Centimeters, as the paper uses.
+    #[serde(rename = "cm")]
+    Centimeter,
+    /// Millimeters, as depth images hold.
+    #[serde(rename = "mm")]
+    Millimeter,
+}
+
+impl Unit {
+    /// All of them, largest first.
+    pub const ALL: [Self; 3] = [Self::Meter, Self::Centimeter, Self::Millimeter];
+
+    /// How many centimeters one unit is.
+    pub fn in_cm(self) -> f64 {
+        match self {
+            Self::Meter => 100.0,
+            Self::Centimeter => 1.0,
+            Self::Millimeter => 0.1,
+        }
+    }
+
+    /// The usual symbol: `m`, `cm` or `mm`.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Meter => "m",
+            Self::Centimeter => "cm",
+            Self::Millimeter => "mm",
+        }
+    }
+}
+
+impl std::fmt::Display for Unit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.symbol())
+    }
+}

@@ -1,0 +1,1 @@
+//! Axes to compare the method's axis with.

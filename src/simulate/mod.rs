@@ -1,0 +1,1 @@
+//! Clouds whose axis is known: the paper's ellipsoid, a pepper, and the depth camera that looks at them.
