@@ -74,6 +74,21 @@ impl Cloud {
     /// The label of a leaf in front of the fruit.
     pub const LEAF: i32 = 2;
 
+    /// Adds columns that are one a point by construction.
+    pub(crate) fn with_columns(
+        mut self,
+        normals: Option<Vec<Vec3>>,
+        colors: Option<Vec<[u8; 4]>>,
+        labels: Option<Vec<i32>>,
+    ) -> Self {
+        let points = self.len();
+        debug_assert!(normals.as_ref().is_none_or(|c| c.len() == points));
+        debug_assert!(colors.as_ref().is_none_or(|c| c.len() == points));
+        debug_assert!(labels.as_ref().is_none_or(|c| c.len() == points));
+        (self.normals, self.colors, self.labels) = (normals, colors, labels);
+        self
+    }
+
     fn check(&self, column: &'static str, rows: usize) -> Result<(), LengthMismatch> {
         let points = self.len();
         if rows == points {

@@ -4,14 +4,24 @@
 //! before it is shown; whoever wants `f32` (the GPU, a search) subtracts a nearby origin first.
 
 mod cloud;
+mod extent;
+mod filters;
 mod line;
+mod neighbors;
+mod normals;
 pub(crate) mod parallel;
 mod plane;
+mod spread;
 mod unit;
 mod watch;
 
 pub use cloud::{Cloud, LengthMismatch};
+pub use extent::Extent;
+pub use filters::{statistical_inliers, voxel_grid};
 pub use line::{angle_between_directions_rad, angle_between_lines_rad};
+pub use neighbors::{Neighbor, Neighbors};
+pub use normals::estimate_normals;
 pub use plane::Plane;
+pub use spread::Spread;
 pub use unit::Unit;
 pub use watch::{Cancelled, Watch};

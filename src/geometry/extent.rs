@@ -1,0 +1,61 @@
+//! How large a cloud is, without letting a stray point decide.
+
+use glam::DVec3;
+
+/// An axis-aligned box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// The lowest corner.
+    pub min: DVec3,
+    /// The highest corner.
+    pub max: DVec3,
+}
+
+impl Extent {
+    /// The box that holds all points; `None` where there are none.
+    pub fn of(points: &[DVec3]) -> Option<Self> {
+        let first = *points.first()?;
+        Some(points.iter().fold(
+            Self {
+                min: first,
+                max: first,
+            },
+            |e, &p| Self {
+                min: e.min.min(p),
+                max: e.max.max(p),
+            },
+        ))
+    }
+
+    /// The box between the 2nd and the 98th percentile of each coordinate: what the bulk of the
+    /// points spans, whatever a few strays do. `None` where there are no points.
+    pub fn robust(points: &[DVec3]) -> Option<Self> {
+        if points.is_empty() {
+            return None;
+        }
+        let (low, high) = (points.len() / 50, points.len() - 1 - points.len() / 50);
+        let mut column = Vec::with_capacity(points.len());
+        let mut range = |axis: usize| {
+            column.clear();
+            column.extend(points.iter().map(|p| p[axis]));
+            let percentile =
+                |column: &mut [f64], rank| *column.select_nth_unstable_by(rank, f64::total_cmp).1;
+            (percentile(&mut column, low), percentile(&mut column, high))
+        };
+        let [x, y, z] = [range(0), range(1), range(2)];
+        Some(Self {
+            min: DVec3::new(x.0, y.0, z.0),
+            max: DVec3::new(x.1, y.1, z.1),
+        })
+    }
+
+    /// Its edges' lengths.
+    pub fn size(&self) -> DVec3 {
+        self.max - self.min
+    }
+
+    /// Its middle.
+    pub fn center(&self) -> DVec3 {
+        0.5 * (self.min + self.max)
+    }
+}

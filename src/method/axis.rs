@@ -1,0 +1,73 @@
+//! The symmetry axis (Eq. 16), and axes from wherever they come.
+
+use glam::DVec3;
+
+/// Why Eq. 16 gives no axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum AxisError {
+    /// The cross product vanishes.
+    #[error("the axis is undefined: the plane's normal is parallel to the line of sight (Eq. 16)")]
+    NormalAlongViewRay,
+    /// There is no line of sight.
+    #[error("the axis is undefined: the viewpoint is the fruit center")]
+    ViewpointAtCenter,
+}
+
+/// The sine of the angle between normal and view ray below which the cross product's direction is
+/// rounding: about 2·10⁻⁷ degrees.
+const PARALLEL_SINE: f64 = 4e-9;
+
+/// The unit direction γ of the symmetry axis, which starts from the fruit center (Eq. 16, then
+/// normalized). `plane_normal` is of unit length; the others are in one frame and unit.
+///
+/// γ is perpendicular to the view ray, so the axis of a fruit that leans towards the camera by δ is
+/// missed by at least δ.
+///
+/// # Errors
+/// Where the normal is parallel to the view ray, or there is none.
+pub fn symmetry_axis(plane_normal: DVec3, center: DVec3, viewpoint: DVec3) -> Result<DVec3, AxisError> {
+    let toward_viewpoint = (viewpoint - center)
+        .try_normalize()
+        .ok_or(AxisError::ViewpointAtCenter)?;
+    let gamma = plane_normal.cross(toward_viewpoint);
+    let length = gamma.length();
+    if length < PARALLEL_SINE {
+        return Err(AxisError::NormalAlongViewRay);
+    }
+    Ok(gamma / length)
+}
+
+/// Where an axis came from.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum AxisSource {
+    /// Eq. 16, from the symmetry plane.
+    SymmetryPlane,
+    /// § 3.2: from the fruit center through the mean of the peduncle's points.
+    Peduncle,
+    /// The simulator that made the cloud.
+    Simulation,
+}
+
+impl AxisSource {
+    /// The name that reports use.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::SymmetryPlane => "symmetry-plane",
+            Self::Peduncle => "peduncle",
+            Self::Simulation => "simulation",
+        }
+    }
+}
+
+/// One estimate of a fruit's axis among several.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisEstimate {
+    /// Where it came from.
+    pub source: AxisSource,
+    /// A point on it, in the file's unit and frame: the fruit center.
+    pub origin: DVec3,
+    /// Its unit direction.
+    pub direction: DVec3,
+    /// How sure its source is of it, 0 to 1, where the source says so.
+    pub confidence: Option<f64>,
+}

@@ -1,0 +1,157 @@
+//! The paper's search for the center among random points (Eq. 3, both readings).
+
+use glam::DVec3;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::geometry::parallel::map_pieces;
+use crate::geometry::{Cancelled, Spread, Watch};
+
+/// The random points that the center is picked from: normally distributed about the cloud's mean.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RandomSearch {
+    /// How many.
+    pub count: usize,
+    /// Their standard deviation along each coordinate, in multiples of the cloud's own (its RMS
+    /// radius over √3).
+    pub spread: f64,
+    /// The seed. The same seed gives the same points on every machine.
+    pub seed: u64,
+}
+
+impl Default for RandomSearch {
+    fn default() -> Self {
+        Self {
+            count: 4000,
+            spread: 1.0,
+            seed: 0,
+        }
+    }
+}
+
+/// Points of the cloud that every random point is first tried on.
+const TRIAL_POINTS: usize = 4096;
+/// One in so many random points is then tried on the whole cloud.
+const TRIED_IN_FULL: usize = 20;
+
+impl RandomSearch {
+    /// The random points, in their order.
+    fn points(&self, spread: &Spread) -> Vec<DVec3> {
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        let sigma = self.spread * spread.rms_radius() / 3.0_f64.sqrt();
+        let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+        (0..self.count)
+            .map(|_| spread.mean + sigma * DVec3::new(normal(), normal(), normal()))
+            .collect()
+    }
+
+    /// The random point with the least RMS distance to the cloud: by the theorem of the parallel
+    /// axes the one nearest to the cloud's mean.
+    pub(super) fn least_rms_distance(&self, points: &[DVec3]) -> DVec3 {
+        let Some(spread) = Spread::of_points(points) else {
+            return DVec3::ZERO;
+        };
+        let tries = self.points(&spread);
+        let nearest = |a: &&DVec3, b: &&DVec3| {
+            a.distance_squared(spread.mean)
+                .total_cmp(&b.distance_squared(spread.mean))
+        };
+        tries.iter().min_by(nearest).copied().unwrap_or(spread.mean)
+    }
+
+    /// The random point whose distances to the cloud have the least standard deviation. On a cloud
+    /// of more than [`TRIAL_POINTS`] all are tried on a sample of that size, evenly taken, and the
+    /// best twentieth then on the whole cloud.
+    pub(super) fn least_deviation(&self, points: &[DVec3], watch: &dyn Watch) -> Result<DVec3, Cancelled> {
+        let Some(spread) = Spread::of_points(points) else {
+            return Ok(DVec3::ZERO);
+        };
+        let mut tries = self.points(&spread);
+        if points.len() > TRIAL_POINTS {
+            let sample: Vec<DVec3> = (0..TRIAL_POINTS)
+                .map(|i| points[i * points.len() / TRIAL_POINTS])
+                .collect();
+            let mut tried = deviations(&Columns::new(&sample), &tries, watch)?;
+            tried.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            tried.truncate(self.count.div_ceil(TRIED_IN_FULL));
+            tries = tried.into_iter().map(|(_, i)| tries[i]).collect();
+        }
+        let tried = deviations(&Columns::new(points), &tries, watch)?;
+        let best = tried
+            .into_iter()
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        Ok(best.map_or(spread.mean, |(_, i)| tries[i]))
+    }
+}
+
+/// The variance of the distances from each of `tries` to the cloud, with its index.
+fn deviations(columns: &Columns, tries: &[DVec3], watch: &dyn Watch) -> Result<Vec<(f64, usize)>, Cancelled> {
+    // A few million distances between two looks at the watch.
+    let piece = (1_000_000 / columns.x.len().max(1)).clamp(1, 64);
+    let pieces = map_pieces(tries.len(), piece, watch, |range| {
+        range
+            .map(|i| (columns.distance_moments(tries[i]).1, i))
+            .collect::<Vec<_>>()
+    })?;
+    Ok(pieces.concat())
+}
+
+/// The standard deviation of the distances from `p` to the points, in their unit: Eq. 3 read as
+/// the RMS error of the distances about their mean. `None` where there are no points.
+pub fn distance_deviation(points: &[DVec3], p: DVec3) -> Option<f64> {
+    (!points.is_empty()).then(|| Columns::new(points).distance_moments(p).1.sqrt())
+}
+
+/// The RMS distance from `p` to the points, in their unit: Eq. 3 as printed. `None` where there are
+/// no points.
+pub fn rms_distance(points: &[DVec3], p: DVec3) -> Option<f64> {
+    let sum: f64 = points.iter().map(|q| q.distance_squared(p)).sum();
+    (!points.is_empty()).then(|| (sum / points.len() as f64).sqrt())
+}
+
+/// Coordinates apart, so that the distances of several points are taken at once.
+struct Columns {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    z: Vec<f64>,
+}
+
+impl Columns {
+    fn new(points: &[DVec3]) -> Self {
+        Self {
+            x: points.iter().map(|p| p.x).collect(),
+            y: points.iter().map(|p| p.y).collect(),
+            z: points.iter().map(|p| p.z).collect(),
+        }
+    }
+
+    /// Mean and variance of the distances from `p`.
+    fn distance_moments(&self, p: DVec3) -> (f64, f64) {
+        const LANES: usize = 8;
+        let distance =
+            |x: f64, y: f64, z: f64| ((x - p.x).powi(2) + (y - p.y).powi(2) + (z - p.z).powi(2)).sqrt();
+        // Deviations from the first distance: a small variance is not the difference of large squares.
+        let first = distance(self.x[0], self.y[0], self.z[0]);
+        let (mut sum, mut squares) = ([0.0; LANES], [0.0; LANES]);
+        let (xs, x_rest) = self.x.as_chunks::<LANES>();
+        let (ys, y_rest) = self.y.as_chunks::<LANES>();
+        let (zs, z_rest) = self.z.as_chunks::<LANES>();
+        for ((x, y), z) in xs.iter().zip(ys).zip(zs) {
+            for lane in 0..LANES {
+                let d = distance(x[lane], y[lane], z[lane]) - first;
+                sum[lane] += d;
+                squares[lane] += d * d;
+            }
+        }
+        for ((x, y), z) in x_rest.iter().zip(y_rest).zip(z_rest) {
+            let d = distance(*x, *y, *z) - first;
+            sum[0] += d;
+            squares[0] += d * d;
+        }
+        let count = self.x.len() as f64;
+        let shifted_mean = sum.iter().sum::<f64>() / count;
+        let variance = squares.iter().sum::<f64>() / count - shifted_mean * shifted_mean;
+        (first + shifted_mean, variance.max(0.0))
+    }
+}

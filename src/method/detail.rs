@@ -1,0 +1,89 @@
+//! Every point's part in one plane's score: side, partner, d and ξ.
+
+use glam::DVec3;
+
+use super::Surface;
+use super::terms::partner_of;
+use crate::geometry::parallel::map_pieces;
+use crate::geometry::{Cancelled, Neighbors, Plane, Unit, Watch};
+
+/// Which side of a plane a point lies on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// The side that the normal points to, or in the plane.
+    Front,
+    /// The other side.
+    Back,
+}
+
+/// A point's visible partner, and what it adds to the score.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Partner {
+    /// The index of the nearest neighbor of the reflected point, in the surface.
+    pub index: usize,
+    /// d in centimeters.
+    pub distance_cm: f64,
+    /// ξ in radians, 0 to π.
+    pub angle_rad: f64,
+}
+
+impl Partner {
+    /// The point's score S = d + τ·ξ in centimeters (Eq. 15).
+    pub fn score_cm(&self, tau_cm_per_rad: f64) -> f64 {
+        self.distance_cm + tau_cm_per_rad * self.angle_rad
+    }
+}
+
+/// One point under one plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointDetail {
+    /// The point's side of the plane.
+    pub side: Side,
+    /// Its visible partner, if it has one.
+    pub partner: Option<Partner>,
+}
+
+/// Every point of a surface under one plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneDetail {
+    /// The plane.
+    pub plane: Plane,
+    /// One a point of the surface.
+    pub points: Vec<PointDetail>,
+}
+
+/// Computes every point's part in the score of one plane, seen from `viewpoint`. Kept apart from
+/// [`super::plane_terms`], since keeping it for all planes would take u²·N rows.
+///
+/// # Errors
+/// [`Cancelled`] when the watch calls the work off.
+pub fn plane_detail(
+    surface: &Surface,
+    unit: Unit,
+    plane: Plane,
+    viewpoint: DVec3,
+    watch: &dyn Watch,
+) -> Result<PlaneDetail, Cancelled> {
+    let neighbors = Neighbors::new(surface.points());
+    let detail = |i: usize| {
+        let partner = neighbors
+            .as_ref()
+            .and_then(|n| partner_of(surface, n, &plane, viewpoint, i))
+            .map(|(index, distance, angle_rad)| Partner {
+                index,
+                distance_cm: distance * unit.in_cm(),
+                angle_rad,
+            });
+        let side = if plane.signed_distance(surface.points()[i]) >= 0.0 {
+            Side::Front
+        } else {
+            Side::Back
+        };
+        PointDetail { side, partner }
+    };
+    let points = map_pieces(surface.len(), 2048, watch, |range| {
+        range.map(detail).collect::<Vec<_>>()
+    })?
+    .concat();
+    Ok(PlaneDetail { plane, points })
+}
