@@ -1,6 +1,115 @@
 //! The command line: one file a subcommand.
 
-/// Parses the command line and runs what it asks for.
-pub(crate) fn main() -> std::process::ExitCode {
-    std::process::ExitCode::SUCCESS
+mod analyze;
+mod options;
+mod progress;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand};
+
+/// Shows why a fruit's symmetry axis was found, or missed.
+///
+/// Axiscope implements the pose estimation of Li et al., Sensors 18 (2018) 3083: from a point cloud
+/// of a fruit, seen by one depth camera, to its symmetry plane and axis.
+#[derive(Debug, Parser)]
+#[command(
+    name = "axiscope",
+    version,
+    max_term_width = 100,
+    subcommand_required = true,
+    arg_required_else_help = true
+)]
+struct Cli {
+    /// Worker threads (all cores by default). The numbers do not hang on it
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Find the symmetry plane and axis of one cloud
+    Analyze(analyze::Analyze),
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell that will read it
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page (roff), to be read by `man -l -`
+    Man,
+}
+
+/// Parses the command line and runs what it asks for. Exit status: 0 done, 1 the input could not be
+/// used, 2 wrong usage.
+pub(crate) fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match run(cli) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("axiscope: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(cli: Cli) -> anyhow::Result<()> {
+    if let Some(threads) = cli.threads {
+        use_threads(threads.into())?;
+    }
+    match cli.command {
+        Command::Analyze(analyze) => analyze::run(&analyze),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "axiscope", &mut script);
+            Ok(std::io::stdout().write_all(&script)?)
+        }
+        Command::Man => {
+            let mut page = Vec::new();
+            manual(&mut page)?;
+            Ok(std::io::stdout().write_all(&page)?)
+        }
+    }
+}
+
+/// The program's manual page with each subcommand's after it, as one document.
+fn manual(page: &mut Vec<u8>) -> std::io::Result<()> {
+    let mut command = Cli::command();
+    command.build();
+    clap_mangen::Man::new(command.clone()).render(page)?;
+    for sub in command.get_subcommands().filter(|s| s.get_name() != "help") {
+        let name = format!("axiscope {}", sub.get_name());
+        let sub = sub.clone().name(name);
+        let man = clap_mangen::Man::new(sub);
+        man.render_name_section(page)?;
+        man.render_synopsis_section(page)?;
+        man.render_description_section(page)?;
+        man.render_options_section(page)?;
+    }
+    Ok(())
+}
+
+#[cfg(feature = "parallel")]
+fn use_threads(threads: usize) -> anyhow::Result<()> {
+    Ok(rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global()?)
+}
+
+#[cfg(not(feature = "parallel"))]
+fn use_threads(threads: usize) -> anyhow::Result<()> {
+    anyhow::ensure!(
+        threads == 1,
+        "this build runs on one thread: it lacks the feature `parallel`"
+    );
+    Ok(())
+}
+
+/// Whether whoever read our output has gone away, as `head` does: no failure of ours.
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    let io = error.downcast_ref::<std::io::Error>();
+    io.is_some_and(|e| e.kind() == std::io::ErrorKind::BrokenPipe)
 }

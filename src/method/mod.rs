@@ -30,5 +30,5 @@ pub use detail::{Partner, PlaneDetail, PointDetail, Side, plane_detail};
 pub use params::{Filters, NormalSource, OutlierFilter, ParamError, Params, Preset, TAU_CM_PER_RAD};
 pub use score::{Aggregation, NoSymmetryPlane, Ranking};
 pub use surface::{Surface, SurfaceError};
-pub use terms::{PlaneTerm, PlaneTerms, plane_terms};
+pub use terms::{PlaneTerm, PlaneTerms, plane_terms, terms_of_planes};
 pub use visibility::{has_visible_partner, is_viewpoint_inside};

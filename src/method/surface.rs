@@ -58,6 +58,19 @@ impl Surface {
     /// The fewest points that are worked on: a sphere takes four.
     pub const MIN_POINTS: usize = 4;
 
+    /// Points with their normals, which are made of unit length; those without one are left out.
+    ///
+    /// # Errors
+    /// Where the points or their normals are too few, all equal, or on a line. (Of columns of
+    /// unequal length the longer one's end is left out.)
+    pub fn new(points: &[DVec3], normals: &[DVec3]) -> Result<Self, SurfaceError> {
+        check_spread(points)?;
+        Self::of_those_with_normals(
+            points,
+            normals.iter().take(points.len()).map(|n| n.try_normalize()),
+        )
+    }
+
     /// The points of `cloud` with normals estimated from their `k` nearest (Eq. 2), turned towards
     /// `viewpoint`.
     ///

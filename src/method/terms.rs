@@ -35,8 +35,8 @@ pub struct PlaneTerms {
 /// order whatever the number of threads.
 const PIECE: usize = 2048;
 
-/// Computes every plane's terms on `surface`, for planes through `center`, seen from `viewpoint`
-/// (both in the surface's unit and frame).
+/// Computes every candidate plane's terms on `surface`, for planes through `center`, seen from
+/// `viewpoint` (both in the surface's unit and frame).
 ///
 /// # Errors
 /// [`Cancelled`] when the watch calls the work off.
@@ -48,43 +48,60 @@ pub fn plane_terms(
     grid: CandidateGrid,
     watch: &dyn Watch,
 ) -> Result<PlaneTerms, Cancelled> {
-    let mut result = PlaneTerms {
+    let planes: Vec<Plane> = grid
+        .candidates()
+        .map(|candidate| Plane {
+            point: center,
+            normal: candidate.normal,
+        })
+        .collect();
+    Ok(PlaneTerms {
         grid,
-        terms: vec![PlaneTerm::default(); grid.plane_count()],
+        terms: terms_of_planes(surface, unit, &planes, viewpoint, watch)?,
         points: surface.len(),
-    };
+    })
+}
+
+/// Computes the terms of any planes, in their order; everything in the surface's unit and frame.
+///
+/// # Errors
+/// [`Cancelled`] when the watch calls the work off.
+pub fn terms_of_planes(
+    surface: &Surface,
+    unit: Unit,
+    planes: &[Plane],
+    viewpoint: DVec3,
+    watch: &dyn Watch,
+) -> Result<Vec<PlaneTerm>, Cancelled> {
     let Some(neighbors) = Neighbors::new(surface.points()) else {
-        return Ok(result);
+        return Ok(vec![PlaneTerm::default(); planes.len()]);
     };
     // One run of pieces over all planes' points, plane after plane, so that many cores find work
     // even where the planes are few.
     let pieces_a_plane = surface.len().div_ceil(PIECE);
-    let partial = map_pieces(grid.plane_count() * pieces_a_plane, 1, watch, |range| {
-        let (index, piece) = (range.start / pieces_a_plane, range.start % pieces_a_plane);
-        let plane = Plane {
-            point: center,
-            normal: grid.candidate(index).normal,
-        };
+    let partial = map_pieces(planes.len() * pieces_a_plane, 1, watch, |range| {
+        let (plane, piece) = (range.start / pieces_a_plane, range.start % pieces_a_plane);
         let points = piece * PIECE..((piece + 1) * PIECE).min(surface.len());
         let mut sum = PlaneTerm::default();
         for i in points {
-            if let Some((_, distance, angle_rad)) = partner_of(surface, &neighbors, &plane, viewpoint, i) {
+            if let Some((_, distance, angle_rad)) =
+                partner_of(surface, &neighbors, &planes[plane], viewpoint, i)
+            {
                 sum.partners += 1;
-                sum.distance_sum_cm += distance;
+                sum.distance_sum_cm += distance * unit.in_cm();
                 sum.angle_sum_rad += angle_rad;
             }
         }
         sum
     })?;
-    for (term, pieces) in result.terms.iter_mut().zip(partial.chunks(pieces_a_plane)) {
-        for piece in pieces {
-            term.partners += piece.partners;
-            term.distance_sum_cm += piece.distance_sum_cm;
-            term.angle_sum_rad += piece.angle_sum_rad;
-        }
-        term.distance_sum_cm *= unit.in_cm();
-    }
-    Ok(result)
+    let whole = |pieces: &[PlaneTerm]| {
+        pieces.iter().fold(PlaneTerm::default(), |sum, piece| PlaneTerm {
+            partners: sum.partners + piece.partners,
+            distance_sum_cm: sum.distance_sum_cm + piece.distance_sum_cm,
+            angle_sum_rad: sum.angle_sum_rad + piece.angle_sum_rad,
+        })
+    };
+    Ok(partial.chunks(pieces_a_plane).map(whole).collect())
 }
 
 /// The partner of point `i` under `plane`: its index in the surface, d in the surface's unit, and ξ

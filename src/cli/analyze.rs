@@ -1,0 +1,274 @@
+//! `axiscope analyze`: one cloud's planes, best plane, axis and error.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::Context;
+use axiscope::geometry::Unit;
+use axiscope::io::{AnalysisReport, Fruit, Request, Timings};
+use axiscope::method::{Aggregation, Analysis, AxisEstimate, CenterMethod, Stage, analyze};
+use axiscope::reference::{PeduncleSource, axis_error_rad};
+use clap::{Args, ValueEnum};
+use glam::DVec3;
+
+use super::options::AnalysisOptions;
+use super::progress::StageClock;
+
+#[derive(Debug, Args)]
+pub(super) struct Analyze {
+    /// The point cloud (PLY)
+    cloud: PathBuf,
+    #[command(flatten)]
+    analysis: AnalysisOptions,
+    /// How to print the result
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    /// A short report
+    Text,
+    /// One JSON object (schema axiscope.analysis/1)
+    Json,
+}
+
+/// One cloud, analyzed and compared.
+struct Outcome {
+    fruit: Fruit,
+    analysis: Analysis,
+    reference: Option<AxisEstimate>,
+    warnings: Vec<String>,
+    timings: Timings,
+}
+
+pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
+    let outcome = analyze_file(&args.cloud, &args.analysis)?;
+    let mut out = std::io::stdout().lock();
+    match args.format {
+        Format::Text => write_text(&mut out, &args.cloud, &outcome)?,
+        Format::Json => {
+            let request = Request {
+                path: &args.cloud,
+                peduncle: &args.analysis.peduncle,
+                without_peduncle: args.analysis.without_peduncle,
+                seed: args.analysis.seed,
+            };
+            let report = AnalysisReport::new(
+                &request,
+                &outcome.fruit,
+                &outcome.analysis,
+                outcome.reference.as_ref(),
+                outcome.warnings,
+                outcome.timings,
+            );
+            // Whole before the first byte goes out: a reader gets all of it or nothing.
+            let text = serde_json::to_string_pretty(&report)?;
+            writeln!(out, "{text}")?;
+        }
+    }
+    Ok(())
+}
+
+fn analyze_file(path: &Path, options: &AnalysisOptions) -> anyhow::Result<Outcome> {
+    let started = Instant::now();
+    let fruit = Fruit::read(path, options.unit.unit(), &options.peduncle)?;
+    let read = milliseconds_since(started);
+
+    let mut warnings = fruit.warnings.clone();
+    if options.without_peduncle && fruit.peduncle.is_none() {
+        warnings.push("There is no peduncle to leave out: the cloud is analyzed as it stands.".into());
+    }
+    let clock = StageClock::new();
+    let params = options.params(&fruit);
+    let analysis = if options.without_peduncle {
+        analyze(&fruit.body(), &params, &clock)
+    } else {
+        analyze(fruit.cloud(), &params, &clock)
+    };
+    let times = clock.finish();
+    let analysis = analysis.with_context(|| path.display().to_string())?;
+    warnings.extend(analysis.warnings.iter().map(|w| sentence(&w.to_string())));
+
+    let reference = fruit.peduncle.as_ref().map(|p| p.reference_axis(analysis.center));
+    let reference = match reference.transpose() {
+        Ok(reference) => reference,
+        Err(error) => {
+            warnings.push(sentence(&error.to_string()));
+            None
+        }
+    };
+    Ok(Outcome {
+        fruit,
+        analysis,
+        reference,
+        warnings,
+        timings: Timings {
+            read,
+            normals: times.milliseconds(Stage::Normals),
+            center: times.milliseconds(Stage::Center),
+            plane_terms: times.milliseconds(Stage::PlaneTerms),
+            total: milliseconds_since(started),
+        },
+    })
+}
+
+fn milliseconds_since(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
+}
+
+/// An error's text as a sentence of its own.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters
+        .next()
+        .map(|c| c.to_uppercase().collect())
+        .unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}
+
+fn write_text(out: &mut impl Write, path: &Path, outcome: &Outcome) -> std::io::Result<()> {
+    let Outcome {
+        fruit,
+        analysis,
+        reference,
+        warnings,
+        timings,
+    } = outcome;
+    let (params, unit) = (&analysis.params, fruit.unit);
+    let grid = analysis.planes.grid;
+    let (points, used) = (fruit.cloud().len(), analysis.surface.len());
+    write!(out, "{}: {points} points in {}", path.display(), unit_name(unit))?;
+    if used != points {
+        write!(out, ", {used} of them used")?;
+    }
+    writeln!(out, "\n")?;
+
+    row(
+        out,
+        "Preset",
+        &format!("{} ({})", params.preset_name(), reading(analysis)),
+    )?;
+    row(out, "Fruit center", &position(analysis.center, unit))?;
+    match &analysis.best {
+        Err(none) => row(out, "Symmetry plane", &format!("none: {none}"))?,
+        Ok(best) => {
+            let c = best.candidate;
+            let u = grid.u();
+            let text = format!(
+                "g {}, h {} of {u} × {u}, normal {}",
+                c.g,
+                c.h,
+                direction(c.normal)
+            );
+            row(out, "Symmetry plane", &text)?;
+            let term = grid.index_of(c.g, c.h).map(|i| analysis.planes.terms[i]);
+            let partners = term.map_or(0, |t| t.partners);
+            let share = 100.0 * partners as f64 / used as f64;
+            let text = format!(
+                "score {:.4} cm, {partners} points have a partner ({share:.0} %)",
+                best.score_cm
+            );
+            row(out, "", &text)?;
+            if let Some((c, score)) = best.runner_up {
+                let lead = match best.lead() {
+                    Some(lead) => format!(" ({:.1} % more)", 100.0 * lead),
+                    None => String::new(),
+                };
+                let text = format!("g {}, h {}, score {score:.4} cm{lead}", c.g, c.h);
+                row(out, "Runner-up", &text)?;
+            }
+        }
+    }
+    match &analysis.axis {
+        Some(axis) => row(out, "Symmetry axis", &direction(axis.direction))?,
+        None => row(out, "Symmetry axis", "none")?,
+    }
+    match (reference, &fruit.peduncle) {
+        (Some(reference), Some(peduncle)) => {
+            let how = match peduncle.source {
+                PeduncleSource::Label => "labels",
+                PeduncleSource::Companion => "a file of its own",
+                PeduncleSource::Hue(_) => "color",
+            };
+            let count = peduncle.points;
+            let text = format!(
+                "{} (peduncle: {count} points by {how})",
+                direction(reference.direction)
+            );
+            row(out, "Reference axis", &text)?;
+            let error = analysis
+                .axis
+                .as_ref()
+                .map(|axis| axis_error_rad(axis, reference).to_degrees());
+            let text = error.map_or("none without an axis".into(), |e| format!("{e:.2}°"));
+            row(out, "Error", &text)?;
+        }
+        _ => row(out, "Reference axis", "none: no peduncle is known")?,
+    }
+    let Timings {
+        read,
+        normals,
+        center,
+        plane_terms,
+        total,
+    } = timings;
+    let text = format!(
+        "{total:.1} ms: read {read:.1}, normals {normals:.1}, center {center:.1}, planes {plane_terms:.1}"
+    );
+    row(out, "Time", &text)?;
+    for (i, warning) in warnings.iter().enumerate() {
+        writeln!(out, "{}Warning: {warning}", if i == 0 { "\n" } else { "" })?;
+    }
+    Ok(())
+}
+
+fn row(out: &mut impl Write, name: &str, value: &str) -> std::io::Result<()> {
+    writeln!(out, "{name:<16}{value}")
+}
+
+/// The parameters that decide how the paper is read, in words.
+fn reading(analysis: &Analysis) -> String {
+    let params = &analysis.params;
+    let center = match params.center {
+        CenterMethod::MeanRms(_) => "mean-rms center",
+        CenterMethod::Equidistant(_) => "equidistant center",
+        CenterMethod::Sphere => "sphere's center",
+        CenterMethod::Given(_) => "given center",
+    };
+    let aggregate = match params.aggregation {
+        Aggregation::Mean => "mean score",
+        Aggregation::Sum => "summed score",
+    };
+    let fraction = 100.0 * params.min_partner_fraction;
+    if fraction > 0.0 {
+        format!("{center}, {aggregate}, partners for at least {fraction:.0} % of the points")
+    } else {
+        format!("{center}, {aggregate}, every plane in the running")
+    }
+}
+
+fn unit_name(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Meter => "meters",
+        Unit::Centimeter => "centimeters",
+        Unit::Millimeter => "millimeters",
+    }
+}
+
+/// A position to a tenth of a millimeter or better.
+fn position(p: DVec3, unit: Unit) -> String {
+    let digits = match unit {
+        Unit::Meter => 5,
+        Unit::Centimeter => 3,
+        Unit::Millimeter => 2,
+    };
+    format!("({:.digits$}, {:.digits$}, {:.digits$}) {unit}", p.x, p.y, p.z)
+}
+
+fn direction(v: DVec3) -> String {
+    // Adding zero keeps a rounded -0.0 from showing.
+    let [x, y, z] = v.to_array().map(|c| (c * 1e4).round() / 1e4 + 0.0);
+    format!("({x:.4}, {y:.4}, {z:.4})")
+}

@@ -1,0 +1,286 @@
+//! The options that every analyzing command shares.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use axiscope::geometry::{Cloud, Unit};
+use axiscope::io::{Fruit, PeduncleChoice};
+use axiscope::method::{
+    Aggregation, CandidateGrid, CenterMethod, Filters, NormalSource, OutlierFilter, Params, Preset,
+    RandomSearch, TAU_CM_PER_RAD,
+};
+use axiscope::reference::HueRange;
+use clap::{Args, ValueEnum};
+use glam::DVec3;
+
+/// Options of the analysis.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Analysis")]
+pub(super) struct AnalysisOptions {
+    /// Which reading of the paper to follow; single options below override it
+    #[arg(long, value_enum, default_value = "as-intended")]
+    pub(super) preset: PresetOption,
+    /// Steps of the candidate grid along each angle: u² planes
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = grid_size)]
+    pub(super) u: usize,
+    /// Weight of an angle against a distance, in cm per radian [default: 3/π]
+    #[arg(long, value_name = "X", value_parser = not_negative, allow_negative_numbers = true)]
+    pub(super) tau: Option<f64>,
+    /// Unit of the file's coordinates
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(super) unit: UnitOption,
+    /// Where normals come from; auto takes the file's where it has them
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(super) normals: NormalsOption,
+    /// Neighbors that a normal is fitted to, the point itself among them
+    #[arg(long, value_name = "N", default_value = "30", value_parser = neighbor_count)]
+    pub(super) k: NonZeroUsize,
+    /// Fruit center: equidistant, mean-rms, sphere, or X,Y,Z in the file's unit [default: the preset's]
+    #[arg(long, value_name = "CENTER", allow_hyphen_values = true)]
+    pub(super) center: Option<CenterOption>,
+    /// Random points among which the center is searched
+    #[arg(long, value_name = "N", default_value = "10000", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pub(super) center_samples: u32,
+    /// Their spread, in multiples of the cloud's own
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive, allow_negative_numbers = true)]
+    pub(super) center_spread: f64,
+    /// How a plane's score is made of its points' scores [default: the preset's]
+    #[arg(long, value_enum)]
+    pub(super) aggregate: Option<AggregateOption>,
+    /// Least share of points with a partner that lets a plane win [default: 0.3 for the mean, 0 for the sum]
+    #[arg(long, value_name = "F", value_parser = fraction, allow_negative_numbers = true)]
+    pub(super) min_partner_fraction: Option<f64>,
+    /// Where the camera is, in the file's unit and frame
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = position, allow_hyphen_values = true)]
+    pub(super) viewpoint: DVec3,
+    /// Seed of everything random
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) seed: u64,
+    /// Where the peduncle is: auto, none, label, a PLY file, or hue=LO..HI in degrees
+    #[arg(long, value_name = "WHERE", default_value = "auto", value_parser = peduncle_choice)]
+    pub(super) peduncle: PeduncleChoice,
+    /// Leave the peduncle's points out of the analysis
+    #[arg(long)]
+    pub(super) without_peduncle: bool,
+    /// Leave out statistical outliers, judged by this many neighbors
+    #[arg(long, value_name = "N")]
+    pub(super) outlier_neighbors: Option<NonZeroUsize>,
+    /// Standard deviations beyond which a point is an outlier
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive, requires = "outlier_neighbors", allow_negative_numbers = true)]
+    pub(super) outlier_std: f64,
+    /// Thin the cloud to one point a cube of this edge, in centimeters
+    #[arg(long, value_name = "CM", value_parser = positive, allow_negative_numbers = true)]
+    pub(super) voxel_cm: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+pub(super) enum PresetOption {
+    /// Eq. 3 and the sum of the scores word for word
+    AsPrinted,
+    /// What the words around the equations mean
+    AsIntended,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+pub(super) enum UnitOption {
+    /// Meters
+    M,
+    /// Centimeters
+    Cm,
+    /// Millimeters
+    Mm,
+    /// As the file states, else guessed from its extent
+    Auto,
+}
+
+impl UnitOption {
+    pub(super) fn unit(self) -> Option<Unit> {
+        match self {
+            Self::M => Some(Unit::Meter),
+            Self::Cm => Some(Unit::Centimeter),
+            Self::Mm => Some(Unit::Millimeter),
+            Self::Auto => None,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+pub(super) enum NormalsOption {
+    /// Fit a plane to each point's neighborhood
+    Estimate,
+    /// Take the file's
+    File,
+    /// Take the file's where it has them, else estimate
+    Auto,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+pub(super) enum AggregateOption {
+    /// The mean over the points with a partner
+    Mean,
+    /// The sum over them
+    Sum,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum CenterOption {
+    Equidistant,
+    MeanRms,
+    Sphere,
+    Given(DVec3),
+}
+
+impl FromStr for CenterOption {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "equidistant" => Ok(Self::Equidistant),
+            "mean-rms" => Ok(Self::MeanRms),
+            "sphere" => Ok(Self::Sphere),
+            _ => position(text)
+                .map(Self::Given)
+                .map_err(|_| "expected equidistant, mean-rms, sphere, or three numbers X,Y,Z".into()),
+        }
+    }
+}
+
+impl AnalysisOptions {
+    /// The method's parameters for this fruit.
+    pub(super) fn params(&self, fruit: &Fruit) -> Params {
+        let preset = match self.preset {
+            PresetOption::AsPrinted => Preset::AsPrinted,
+            PresetOption::AsIntended => Preset::AsIntended,
+        };
+        let search = RandomSearch {
+            count: self.center_samples as usize,
+            spread: self.center_spread,
+            seed: self.seed,
+        };
+        let defaults = Params::new(preset, fruit.unit);
+        let aggregation = match self.aggregate {
+            Some(AggregateOption::Mean) => Aggregation::Mean,
+            Some(AggregateOption::Sum) => Aggregation::Sum,
+            None => defaults.aggregation,
+        };
+        Params {
+            u: self.u,
+            tau_cm_per_rad: self.tau.unwrap_or(TAU_CM_PER_RAD),
+            normals: self.normal_source(fruit.cloud()),
+            k: self.k,
+            center: match self.center {
+                Some(CenterOption::Equidistant) => CenterMethod::Equidistant(search),
+                Some(CenterOption::MeanRms) => CenterMethod::MeanRms(search),
+                Some(CenterOption::Sphere) => CenterMethod::Sphere,
+                Some(CenterOption::Given(center)) => CenterMethod::Given(center),
+                None => CenterMethod::of_preset(preset, search),
+            },
+            aggregation,
+            min_partner_fraction: self
+                .min_partner_fraction
+                .unwrap_or_else(|| aggregation.default_min_partner_fraction()),
+            viewpoint: self.viewpoint,
+            filters: Filters {
+                outliers: self.outlier_neighbors.map(|neighbors| OutlierFilter {
+                    neighbors,
+                    std_ratio: self.outlier_std,
+                }),
+                voxel_cm: self.voxel_cm,
+            },
+            ..defaults
+        }
+    }
+
+    fn normal_source(&self, cloud: &Cloud) -> NormalSource {
+        match self.normals {
+            NormalsOption::Estimate => NormalSource::Estimate,
+            NormalsOption::File => NormalSource::File,
+            NormalsOption::Auto => match cloud.normals() {
+                Some(_) => NormalSource::File,
+                None => NormalSource::Estimate,
+            },
+        }
+    }
+}
+
+fn grid_size(text: &str) -> Result<usize, String> {
+    let u = text.parse::<usize>().map_err(|_| "expected a whole number")?;
+    CandidateGrid::new(u)
+        .map(CandidateGrid::u)
+        .map_err(|e| e.to_string())
+}
+
+fn neighbor_count(text: &str) -> Result<NonZeroUsize, String> {
+    let k = text
+        .parse::<NonZeroUsize>()
+        .map_err(|_| "expected a whole number")?;
+    if k.get() >= 3 {
+        Ok(k)
+    } else {
+        Err("three points make a plane: at least 3".into())
+    }
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    let value = text.trim().parse::<f64>().map_err(|_| "expected a number")?;
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err("expected a finite number".into())
+    }
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    match number(text)? {
+        value if value >= 0.0 => Ok(value),
+        _ => Err("expected 0 or more".into()),
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match number(text)? {
+        value if value > 0.0 => Ok(value),
+        _ => Err("expected more than 0".into()),
+    }
+}
+
+fn fraction(text: &str) -> Result<f64, String> {
+    match number(text)? {
+        value if (0.0..=1.0).contains(&value) => Ok(value),
+        _ => Err("expected a fraction from 0 to 1".into()),
+    }
+}
+
+/// Three finite numbers with commas between them.
+pub(super) fn position(text: &str) -> Result<DVec3, String> {
+    let numbers: Vec<f64> = text.split(',').map(number).collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [x, y, z] => Ok(DVec3::new(x, y, z)),
+        _ => Err("expected three numbers X,Y,Z".into()),
+    }
+}
+
+fn peduncle_choice(text: &str) -> Result<PeduncleChoice, String> {
+    Ok(match text {
+        "auto" => PeduncleChoice::Auto,
+        "none" => PeduncleChoice::None,
+        "label" => PeduncleChoice::Label,
+        _ => match text.strip_prefix("hue=") {
+            Some(range) => PeduncleChoice::Hue(hue_range(range)?),
+            None => PeduncleChoice::File(PathBuf::from(text)),
+        },
+    })
+}
+
+fn hue_range(text: &str) -> Result<HueRange, String> {
+    let (from, to) = text.split_once("..").ok_or("expected hue=LO..HI in degrees")?;
+    let degrees = |text| match number(text)? {
+        value if (0.0..=360.0).contains(&value) => Ok(value),
+        _ => Err("expected a hue from 0 to 360 degrees".to_string()),
+    };
+    Ok(HueRange {
+        from_deg: degrees(from)?,
+        to_deg: degrees(to)?,
+    })
+}

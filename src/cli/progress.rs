@@ -1,0 +1,86 @@
+//! Progress on standard error, and the time that each stage takes.
+
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use axiscope::geometry::Watch;
+use axiscope::method::{Observe, Stage};
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Watches one analysis: a bar once it takes long enough to wonder, and a clock for each stage.
+pub(super) struct StageClock {
+    bar: ProgressBar,
+    started: Instant,
+    entered: Mutex<Vec<(Stage, Instant)>>,
+}
+
+/// Shorter work than this shows no bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+impl StageClock {
+    pub(super) fn new() -> Self {
+        Self {
+            bar: bar("{msg:<16} {wide_bar} {percent:>3} %"),
+            started: Instant::now(),
+            entered: Mutex::default(),
+        }
+    }
+
+    /// Ends the bar and tells how long each stage took.
+    pub(super) fn finish(self) -> StageTimes {
+        self.bar.finish_and_clear();
+        let entered = self.entered.into_inner().unwrap_or_default();
+        StageTimes {
+            entered,
+            ended: Instant::now(),
+        }
+    }
+}
+
+/// When each stage began.
+pub(super) struct StageTimes {
+    entered: Vec<(Stage, Instant)>,
+    ended: Instant,
+}
+
+impl StageTimes {
+    /// How long `stage` took, in milliseconds; 0 where it did not run.
+    pub(super) fn milliseconds(&self, stage: Stage) -> f64 {
+        let ends = self.entered.iter().skip(1).map(|e| e.1).chain([self.ended]);
+        let spans = self.entered.iter().zip(ends);
+        let of_stage = spans.filter(|((s, _), _)| *s == stage);
+        of_stage
+            .map(|((_, start), end)| (end - *start).as_secs_f64() * 1e3)
+            .sum()
+    }
+}
+
+impl Watch for StageClock {
+    fn advanced(&self, done: usize, total: usize) {
+        if self.started.elapsed() > PATIENCE {
+            self.bar.set_length(total as u64);
+            self.bar.set_position(done as u64);
+        }
+    }
+}
+
+impl Observe for StageClock {
+    fn entered(&self, stage: Stage) {
+        if let Ok(mut entered) = self.entered.lock() {
+            entered.push((stage, Instant::now()));
+        }
+        self.bar.set_message(match stage {
+            Stage::Filters => "Filtering",
+            Stage::Normals => "Normals",
+            Stage::Center => "Fruit center",
+            Stage::PlaneTerms => "Candidate planes",
+            Stage::Scores => "Scores",
+        });
+    }
+}
+
+/// A bar on standard error; invisible where that is no terminal.
+pub(super) fn bar(template: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::no_length().with_style(style.progress_chars("━╸─"))
+}

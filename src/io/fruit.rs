@@ -1,0 +1,143 @@
+//! A fruit as its files give it: the cloud, its unit, and its peduncle.
+
+use std::path::{Path, PathBuf};
+
+use super::{CloudFile, ReadError, read_cloud, unit_guess};
+use crate::geometry::{Cloud, Unit};
+use crate::reference::{HueRange, Peduncle, PeduncleError};
+
+/// Where to look for the peduncle.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PeduncleChoice {
+    /// Labels in the file, else a companion file, else none.
+    Auto,
+    /// Nowhere.
+    None,
+    /// The file's labels.
+    Label,
+    /// A file of its own.
+    File(PathBuf),
+    /// The points of a color.
+    Hue(HueRange),
+}
+
+/// A fruit, read and understood.
+#[derive(Debug, Clone)]
+pub struct Fruit {
+    /// The file and its cloud.
+    pub file: CloudFile,
+    /// The unit of its coordinates.
+    pub unit: Unit,
+    /// Its peduncle, where it has one.
+    pub peduncle: Option<Peduncle>,
+    /// What the reader ought to know about the file, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// Why a fruit's files could not be used. One sentence that names the file.
+#[derive(Debug, thiserror::Error)]
+pub enum FruitError {
+    /// A file could not be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The peduncle was not found as asked.
+    #[error("{}: {error}", path.display())]
+    Peduncle {
+        /// The cloud's file.
+        path: PathBuf,
+        /// Why.
+        error: PeduncleError,
+    },
+}
+
+impl Fruit {
+    /// Reads a cloud, settles its unit (`None`: as stated in the file, or else guessed) and finds its
+    /// peduncle.
+    ///
+    /// # Errors
+    /// Where a file cannot be read, or the peduncle is not found as asked.
+    pub fn read(path: &Path, unit: Option<Unit>, choice: &PeduncleChoice) -> Result<Self, FruitError> {
+        let file = read_cloud(path)?;
+        let mut warnings = file.ply.warnings();
+        let unit = unit.unwrap_or_else(|| {
+            let guess = unit_guess::resolve(&file.ply.cloud, file.ply.stated_unit);
+            warnings.extend(guess.warning);
+            guess.unit
+        });
+        let peduncle = find_peduncle(path, &file.ply.cloud, choice)?;
+        Ok(Self {
+            file,
+            unit,
+            peduncle,
+            warnings,
+        })
+    }
+
+    /// The file's cloud.
+    pub fn cloud(&self) -> &Cloud {
+        &self.file.ply.cloud
+    }
+
+    /// The cloud without the peduncle's points; the whole cloud where there are none.
+    pub fn body(&self) -> Cloud {
+        match &self.peduncle {
+            Some(peduncle) => peduncle.removed_from(self.cloud()),
+            None => self.cloud().clone(),
+        }
+    }
+}
+
+/// Where a cloud's peduncle would have a file of its own: `NAME_peduncle.ply` beside `NAME.ply`.
+pub fn companion_path(path: &Path) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_os_string();
+    name.push("_peduncle.ply");
+    path.with_file_name(name)
+}
+
+fn find_peduncle(
+    path: &Path,
+    cloud: &Cloud,
+    choice: &PeduncleChoice,
+) -> Result<Option<Peduncle>, FruitError> {
+    let by_file = |companion: &Path| Peduncle::by_companion(cloud, &read_cloud(companion)?.ply.cloud).map_err(|error| {
+        FruitError::Peduncle {
+            path: companion.to_path_buf(),
+            error,
+        }
+    });
+    let asked = |found: Result<Peduncle, PeduncleError>| {
+        found.map(Some).map_err(|error| FruitError::Peduncle {
+            path: path.to_path_buf(),
+            error,
+        })
+    };
+    match choice {
+        PeduncleChoice::None => Ok(None),
+        PeduncleChoice::Label => asked(Peduncle::by_label(cloud)),
+        PeduncleChoice::Hue(range) => asked(Peduncle::by_hue(cloud, *range)),
+        PeduncleChoice::File(companion) => by_file(companion).map(Some),
+        PeduncleChoice::Auto => {
+            if let Ok(peduncle) = Peduncle::by_label(cloud) {
+                return Ok(Some(peduncle));
+            }
+            let companion = companion_path(path);
+            if companion.is_file() {
+                by_file(&companion).map(Some)
+            } else {
+                Ok(None)
+            }
+        }
+    }
+}
+
+impl std::fmt::Display for PeduncleChoice {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::None => f.write_str("none"),
+            Self::Label => f.write_str("label"),
+            Self::File(path) => write!(f, "{}", path.display()),
+            Self::Hue(range) => write!(f, "hue={}..{}", range.from_deg, range.to_deg),
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! The report of one analysis as JSON: `axiscope.analysis/1`, which other programs rely on.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::{Fruit, PeduncleChoice};
+use crate::geometry::Unit;
+use crate::method::{Aggregation, Analysis, AxisEstimate, CenterMethod, NormalSource};
+use crate::reference::axis_error_rad;
+
+/// The schema's name and version.
+pub const SCHEMA: &str = "axiscope.analysis/1";
+
+/// One analysis, as `analyze --format json` prints it.
+#[derive(Debug, Clone, Serialize)]
+pub struct AnalysisReport {
+    schema: &'static str,
+    cloud: CloudReport,
+    params: ParamsReport,
+    center: [f64; 3],
+    planes: Vec<PlaneReport>,
+    best: Option<BestReport>,
+    axis: Option<AxisReport>,
+    reference: Option<ReferenceReport>,
+    warnings: Vec<String>,
+    timings_ms: Timings,
+}
+
+/// How long the stages took, in milliseconds.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Timings {
+    /// Reading the files, with everything up to the cloud in memory.
+    pub read: f64,
+    /// Normals; `file` normals are taken over, which takes next to nothing.
+    pub normals: f64,
+    /// The fruit center.
+    pub center: f64,
+    /// n, ΣD and ΣΞ of all planes, with the building of what they are searched in.
+    pub plane_terms: f64,
+    /// From the start of reading to the finished report.
+    pub total: f64,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct CloudReport {
+    file: String,
+    sha256: String,
+    points: usize,
+    used_points: usize,
+    unit: Unit,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct ParamsReport {
+    preset: &'static str,
+    u: usize,
+    tau: f64,
+    unit: Unit,
+    normals: &'static str,
+    k: usize,
+    center: CenterReport,
+    center_samples: Option<usize>,
+    center_spread: Option<f64>,
+    aggregate: Aggregation,
+    min_partner_fraction: f64,
+    viewpoint: [f64; 3],
+    seed: u64,
+    peduncle: String,
+    without_peduncle: bool,
+    outlier_neighbors: Option<usize>,
+    outlier_std: Option<f64>,
+    voxel_cm: Option<f64>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
+enum CenterReport {
+    Method(&'static str),
+    Given([f64; 3]),
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct PlaneReport {
+    g: usize,
+    h: usize,
+    alpha_rad: f64,
+    beta_rad: f64,
+    normal: [f64; 3],
+    partners: usize,
+    distance_sum_cm: f64,
+    angle_sum_rad: f64,
+    score: Option<f64>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct BestReport {
+    g: usize,
+    h: usize,
+    normal: [f64; 3],
+    score: f64,
+    runner_up_score: Option<f64>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct AxisReport {
+    origin: [f64; 3],
+    direction: [f64; 3],
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct ReferenceReport {
+    kind: &'static str,
+    direction: [f64; 3],
+    error_deg: Option<f64>,
+}
+
+/// What was asked for, beyond the method's own parameters.
+#[derive(Debug, Clone)]
+pub struct Request<'a> {
+    /// The cloud's file, as the user named it.
+    pub path: &'a Path,
+    /// Where the peduncle was looked for.
+    pub peduncle: &'a PeduncleChoice,
+    /// Whether the peduncle's points were left out.
+    pub without_peduncle: bool,
+    /// The seed that was given, in force or not.
+    pub seed: u64,
+}
+
+impl AnalysisReport {
+    /// Puts a report together. `warnings` come after the file's and the method's own.
+    pub fn new(
+        request: &Request<'_>,
+        fruit: &Fruit,
+        analysis: &Analysis,
+        reference: Option<&AxisEstimate>,
+        warnings: Vec<String>,
+        timings_ms: Timings,
+    ) -> Self {
+        let planes = &analysis.planes;
+        let rows = planes.grid.candidates().zip(&planes.terms).zip(analysis.ranking.scores_cm());
+        Self {
+            schema: SCHEMA,
+            cloud: CloudReport {
+                file: request.path.display().to_string(),
+                sha256: fruit.file.sha256.clone(),
+                points: fruit.cloud().len(),
+                used_points: analysis.surface.len(),
+                unit: fruit.unit,
+            },
+            params: params_report(request, analysis),
+            center: analysis.center.to_array(),
+            planes: rows
+                .map(|((candidate, term), score)| PlaneReport {
+                    g: candidate.g,
+                    h: candidate.h,
+                    alpha_rad: candidate.alpha_rad,
+                    beta_rad: candidate.beta_rad,
+                    normal: candidate.normal.to_array(),
+                    partners: term.partners,
+                    distance_sum_cm: term.distance_sum_cm,
+                    angle_sum_rad: term.angle_sum_rad,
+                    score: *score,
+                })
+                .collect(),
+            best: analysis.best.ok().map(|best| BestReport {
+                g: best.candidate.g,
+                h: best.candidate.h,
+                normal: best.candidate.normal.to_array(),
+                score: best.score_cm,
+                runner_up_score: best.runner_up.map(|(_, score)| score),
+            }),
+            axis: analysis.axis.as_ref().map(|axis| AxisReport {
+                origin: axis.origin.to_array(),
+                direction: axis.direction.to_array(),
+            }),
+            reference: reference.map(|reference| ReferenceReport {
+                kind: reference.source.name(),
+                direction: reference.direction.to_array(),
+                error_deg: analysis
+                    .axis
+                    .as_ref()
+                    .map(|axis| axis_error_rad(axis, reference).to_degrees()),
+            }),
+            warnings,
+            timings_ms,
+        }
+    }
+}
+
+fn params_report(request: &Request<'_>, analysis: &Analysis) -> ParamsReport {
+    let params = &analysis.params;
+    let search = params.center.search();
+    ParamsReport {
+        preset: params.preset_name(),
+        u: params.u,
+        tau: params.tau_cm_per_rad,
+        unit: params.unit,
+        normals: match params.normals {
+            NormalSource::Estimate => "estimate",
+            NormalSource::File => "file",
+        },
+        k: params.k.get(),
+        center: match params.center {
+            CenterMethod::MeanRms(_) => CenterReport::Method("mean-rms"),
+            CenterMethod::Equidistant(_) => CenterReport::Method("equidistant"),
+            CenterMethod::Sphere => CenterReport::Method("sphere"),
+            CenterMethod::Given(center) => CenterReport::Given(center.to_array()),
+        },
+        center_samples: search.map(|s| s.count),
+        center_spread: search.map(|s| s.spread),
+        aggregate: params.aggregation,
+        min_partner_fraction: params.min_partner_fraction,
+        viewpoint: params.viewpoint.to_array(),
+        seed: request.seed,
+        peduncle: request.peduncle.to_string(),
+        without_peduncle: request.without_peduncle,
+        outlier_neighbors: params.filters.outliers.map(|f| f.neighbors.get()),
+        outlier_std: params.filters.outliers.map(|f| f.std_ratio),
+        voxel_cm: params.filters.voxel_cm,
+    }
+}
