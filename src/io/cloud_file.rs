@@ -1,0 +1,154 @@
+//! A cloud from a file on disk: the only place in this room that opens one.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use super::ply::{self, PlyCloud, PlyError};
+
+/// A cloud, and the file it came from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CloudFile {
+    /// The file, as it was named.
+    pub path: PathBuf,
+    /// SHA-256 of its bytes, in 64 lowercase hexadecimal digits.
+    pub sha256: String,
+    /// What it says.
+    pub ply: PlyCloud,
+}
+
+/// A file that gives no cloud. Displayed as one line: the file, then the cause.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {kind}", on_one_line(.path))]
+pub struct ReadError {
+    /// The file, as it was named.
+    pub path: PathBuf,
+    /// The cause.
+    pub kind: ReadErrorKind,
+}
+
+/// Why a file gives no cloud.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadErrorKind {
+    /// There is nothing of that name.
+    #[error("there is no such file")]
+    NotFound,
+    /// It is a directory.
+    #[error("this is a folder, not a file")]
+    Folder,
+    /// It is a pipe, a device or the like, of which nobody knows where it ends.
+    #[error("this is not a regular file")]
+    NotRegular,
+    /// The operating system forbids it.
+    #[error("permission to read the file is denied")]
+    PermissionDenied,
+    /// It is larger than the memory that can be had.
+    #[error("the file has {size} bytes, more than there is memory for")]
+    TooLarge {
+        /// Its size.
+        size: u64,
+    },
+    /// The operating system failed in another way.
+    #[error("the file cannot be read: {0}")]
+    Io(io::Error),
+    /// It is no PLY file, or a malformed one.
+    #[error(transparent)]
+    Ply(PlyError),
+}
+
+impl From<io::Error> for ReadErrorKind {
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::NotFound => Self::NotFound,
+            io::ErrorKind::PermissionDenied => Self::PermissionDenied,
+            io::ErrorKind::IsADirectory => Self::Folder,
+            _ => Self::Io(error),
+        }
+    }
+}
+
+/// Reads a cloud from a PLY file.
+///
+/// # Errors
+/// Where the file is missing, is not a regular file, cannot be read, or is no well-formed PLY file
+/// with vertices.
+pub fn read_cloud(path: impl AsRef<Path>) -> Result<CloudFile, ReadError> {
+    let path = path.as_ref();
+    let bytes = bytes_of(path).map_err(|kind| ReadError {
+        path: path.to_owned(),
+        kind,
+    })?;
+    parse_cloud(path, &bytes)
+}
+
+/// A cloud from the bytes of a PLY file that somebody else has read; `path` is only told again.
+///
+/// # Errors
+/// Where the bytes are no well-formed PLY file with vertices.
+pub fn parse_cloud(path: impl AsRef<Path>, bytes: &[u8]) -> Result<CloudFile, ReadError> {
+    let path = path.as_ref().to_owned();
+    let hash = || hexadecimal(&Sha256::digest(bytes));
+    let parse = || ply::read(bytes);
+    // Each takes about as long as the other.
+    #[cfg(feature = "parallel")]
+    let (sha256, ply) = rayon::join(hash, parse);
+    #[cfg(not(feature = "parallel"))]
+    let (sha256, ply) = (hash(), parse());
+    match ply {
+        Ok(ply) => Ok(CloudFile { path, sha256, ply }),
+        Err(error) => Err(ReadError {
+            path,
+            kind: ReadErrorKind::Ply(error),
+        }),
+    }
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadErrorKind> {
+    // Before the file is opened: opening a pipe waits for somebody to write into it.
+    let metadata = std::fs::metadata(path)?;
+    if metadata.is_dir() {
+        return Err(ReadErrorKind::Folder);
+    }
+    if !metadata.is_file() {
+        return Err(ReadErrorKind::NotRegular);
+    }
+    let size = metadata.len();
+    let mut bytes = Vec::new();
+    let reserved = usize::try_from(size).is_ok_and(|size| bytes.try_reserve_exact(size).is_ok());
+    if !reserved {
+        return Err(ReadErrorKind::TooLarge { size });
+    }
+    // No more than it had, in case somebody writes faster than we read.
+    File::open(path)?.take(size).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Two digits a byte.
+fn hexadecimal(bytes: &[u8]) -> String {
+    let digit = |value: u8| {
+        char::from(if value < 10 {
+            b'0' + value
+        } else {
+            b'a' + value - 10
+        })
+    };
+    bytes
+        .iter()
+        .flat_map(|&byte| [digit(byte >> 4), digit(byte & 15)])
+        .collect()
+}
+
+/// A path as it may stand in a message: names of files may hold line ends.
+fn on_one_line(path: &Path) -> String {
+    let escape = |c: char| {
+        if c.is_control() {
+            c.escape_default().collect()
+        } else {
+            String::from(c)
+        }
+    };
+    path.display().to_string().chars().map(escape).collect()
+}

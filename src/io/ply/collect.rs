@@ -1,0 +1,253 @@
+//! Rows of numbers become a cloud: the one place where values get their meaning.
+
+use glam::{DVec3, Vec3};
+
+use super::Note;
+use super::columns::{Columns, Role};
+use super::scalar::Scalar;
+use crate::geometry::Cloud;
+
+/// Rows that are decoded before they are sorted into the cloud: few enough for all columns of a
+/// block to stay in the fastest cache.
+pub(super) const BLOCK: usize = 128;
+
+/// The label of a point whose label cannot be used.
+const NO_LABEL: i32 = -1;
+
+/// Takes decoded rows, a block at a time, and makes a cloud of them.
+pub(super) struct Collector {
+    block: Block,
+    colors: Option<Colors>,
+    positions: Vec<DVec3>,
+    normals: Option<Vec<Vec3>>,
+    labels: Option<Vec<i32>>,
+    dropped: usize,
+    unusable_labels: usize,
+}
+
+/// Some rows, column by column.
+pub(super) struct Block {
+    columns: [[f64; BLOCK]; Role::COUNT],
+}
+
+impl Block {
+    /// The values of a role, one a row.
+    #[inline]
+    pub(super) fn column(&mut self, role: Role) -> &mut [f64; BLOCK] {
+        &mut self.columns[role as usize]
+    }
+}
+
+impl Collector {
+    pub(super) fn new(columns: &Columns) -> Self {
+        let mut block = Block {
+            columns: [[0.0; BLOCK]; Role::COUNT],
+        };
+        let colors = Colors::of(columns);
+        if colors.is_some() && columns.kind(Role::Alpha).is_none() {
+            *block.column(Role::Alpha) = [255.0; BLOCK];
+        }
+        Self {
+            block,
+            colors,
+            positions: Vec::new(),
+            normals: columns.kind(Role::NormalX).map(|_| Vec::new()),
+            labels: columns.kind(Role::Label).map(|_| Vec::new()),
+            dropped: 0,
+            unusable_labels: 0,
+        }
+    }
+
+    /// Makes room for so many rows at once. The caller knows that the file can hold them.
+    pub(super) fn reserve(&mut self, rows: usize) {
+        self.positions.reserve(rows);
+        if let Some(normals) = &mut self.normals {
+            normals.reserve(rows);
+        }
+        if let Some(colors) = &mut self.colors {
+            colors.reserve(rows);
+        }
+        if let Some(labels) = &mut self.labels {
+            labels.reserve(rows);
+        }
+    }
+
+    /// Where the next rows are put before [`Collector::take`].
+    #[inline]
+    pub(super) fn block(&mut self) -> &mut Block {
+        &mut self.block
+    }
+
+    /// Takes the first `rows` rows of the block, at most [`BLOCK`].
+    pub(super) fn take(&mut self, rows: usize) {
+        let rows = rows.min(BLOCK);
+        let of = |role: Role| &self.block.columns[role as usize][..rows];
+        let three = |roles: [Role; 3]| {
+            let [a, b, c] = roles.map(of);
+            a.iter().zip(b).zip(c).map(|((&a, &b), &c)| DVec3::new(a, b, c))
+        };
+        // Rare, so that the common case does not ask it for each value of each column.
+        let kept: Option<Vec<bool>> = three(Role::POSITION)
+            .any(|p| !p.is_finite())
+            .then(|| three(Role::POSITION).map(DVec3::is_finite).collect());
+        let before = self.positions.len();
+        extend(&mut self.positions, three(Role::POSITION), kept.as_deref());
+        self.dropped += rows - (self.positions.len() - before);
+        if let Some(normals) = &mut self.normals {
+            let values = three(Role::NORMAL).map(|n| {
+                // Asked after the conversion, in which large values become infinite.
+                Some(n.as_vec3()).filter(|n| n.is_finite()).unwrap_or(Vec3::ZERO)
+            });
+            extend(normals, values, kept.as_deref());
+        }
+        if let Some(colors) = &mut self.colors {
+            let values = three(Role::COLOR)
+                .zip(of(Role::Alpha))
+                .map(|(c, &a)| [c.x, c.y, c.z, a]);
+            colors.extend(values, kept.as_deref());
+        }
+        if let Some(labels) = &mut self.labels {
+            let unusable = &mut self.unusable_labels;
+            let values = of(Role::Label).iter().enumerate().map(|(row, &value)| {
+                let rounded = value.round();
+                if (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&rounded) {
+                    rounded as i32
+                } else {
+                    let is_kept = kept.as_ref().is_none_or(|kept| kept.get(row) == Some(&true));
+                    *unusable += usize::from(is_kept);
+                    NO_LABEL
+                }
+            });
+            extend(labels, values, kept.as_deref());
+        }
+    }
+
+    /// The cloud, and how many rows had no finite position.
+    pub(super) fn finish(self, notes: &mut Vec<Note>) -> (Cloud, usize) {
+        if self.unusable_labels > 0 {
+            notes.push(Note::UnusableLabels {
+                count: self.unusable_labels,
+            });
+        }
+        let mut cloud = Cloud::new(self.positions);
+        // Every column has as many rows as there are positions, as they are filled side by side.
+        let whole = "columns are filled side by side";
+        if let Some(normals) = self.normals {
+            cloud = cloud.with_normals(normals).expect(whole);
+        }
+        if let Some(colors) = self.colors {
+            cloud = cloud.with_colors(colors.finish()).expect(whole);
+        }
+        if let Some(labels) = self.labels {
+            cloud = cloud.with_labels(labels).expect(whole);
+        }
+        (cloud, self.dropped)
+    }
+}
+
+/// Appends the values that are kept: all of them where nothing is said.
+fn extend<T>(column: &mut Vec<T>, values: impl Iterator<Item = T>, kept: Option<&[bool]>) {
+    match kept {
+        None => column.extend(values),
+        Some(kept) => {
+            column.extend(
+                values
+                    .zip(kept)
+                    .filter_map(|(value, &kept)| kept.then_some(value)),
+            );
+        }
+    }
+}
+
+/// Colors on their way to 0–255. Unless all are bytes, what scale they are on is known only when
+/// all have been seen.
+enum Colors {
+    Bytes(Vec<[u8; 4]>),
+    Scaled {
+        values: Vec<[f32; 4]>,
+        scales: [Scale; 4],
+    },
+}
+
+/// How the values of a channel are spread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Scale {
+    /// 0 to 255, being bytes.
+    Byte,
+    /// Wider integers: 0 to 65535 if one is above 255, else 0 to 255.
+    Wide,
+    /// Floating point: 0 to 255 if one is above 1, else 0 to 1.
+    Float,
+}
+
+impl Colors {
+    fn of(columns: &Columns) -> Option<Self> {
+        let scale = |role| {
+            columns.kind(role).map(|kind| match kind {
+                Scalar::I8 | Scalar::U8 => Scale::Byte,
+                kind if kind.is_float() => Scale::Float,
+                _ => Scale::Wide,
+            })
+        };
+        let [red, green, blue] = Role::COLOR.map(scale);
+        let scales = [red?, green?, blue?, scale(Role::Alpha).unwrap_or(Scale::Byte)];
+        Some(if scales == [Scale::Byte; 4] {
+            Self::Bytes(Vec::new())
+        } else {
+            Self::Scaled {
+                values: Vec::new(),
+                scales,
+            }
+        })
+    }
+
+    fn reserve(&mut self, rows: usize) {
+        match self {
+            Self::Bytes(colors) => colors.reserve(rows),
+            Self::Scaled { values, .. } => values.reserve(rows),
+        }
+    }
+
+    fn extend(&mut self, rows: impl Iterator<Item = [f64; 4]>, kept: Option<&[bool]>) {
+        // A cast keeps within 0 to 255, and makes 0 of what is no number.
+        match self {
+            Self::Bytes(colors) => extend(colors, rows.map(|row| row.map(|value| value as u8)), kept),
+            Self::Scaled { values, .. } => {
+                extend(values, rows.map(|row| row.map(|value| value as f32)), kept);
+            }
+        }
+    }
+
+    fn finish(self) -> Vec<[u8; 4]> {
+        let (values, scales) = match self {
+            Self::Bytes(colors) => return colors,
+            Self::Scaled { values, scales } => (values, scales),
+        };
+        let mut largest = [f32::NEG_INFINITY; 4];
+        for row in &values {
+            for (largest, &value) in largest.iter_mut().zip(row) {
+                // False for what is no number.
+                if value > *largest {
+                    *largest = value;
+                }
+            }
+        }
+        // Red, green and blue share a scale as far as they share a type; alpha has its own, as
+        // files exist with colors to 255 and alpha to 1.
+        let mut factors = [1.0; 4];
+        for (channel, factor) in factors.iter_mut().enumerate() {
+            let group = if channel == 3 { 3..4 } else { 0..3 };
+            let largest = group
+                .filter(|&other| scales[other] == scales[channel])
+                .fold(f32::NEG_INFINITY, |all, other| all.max(largest[other]));
+            *factor = match scales[channel] {
+                Scale::Float if largest <= 1.0 => 255.0,
+                Scale::Wide if largest > 255.0 => 255.0 / 65535.0,
+                _ => 1.0,
+            };
+        }
+        let to_byte = |value: f32, factor: f32| (value * factor).round() as u8;
+        let row_to_bytes = |row: &[f32; 4]| std::array::from_fn(|i| to_byte(row[i], factors[i]));
+        values.iter().map(row_to_bytes).collect()
+    }
+}
