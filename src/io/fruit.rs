@@ -58,12 +58,16 @@ impl Fruit {
     /// Where a file cannot be read, or the peduncle is not found as asked.
     pub fn read(path: &Path, unit: Option<Unit>, choice: &PeduncleChoice) -> Result<Self, FruitError> {
         let file = read_cloud(path)?;
-        let mut warnings = file.ply.warnings();
-        let unit = unit.unwrap_or_else(|| {
-            let guess = unit_guess::resolve(&file.ply.cloud, file.ply.stated_unit);
-            warnings.extend(guess.warning);
-            guess.unit
-        });
+        let mut warnings: Vec<String> = file.ply.notes.iter().map(|note| format!("{note}.")).collect();
+        let dropped = file.ply.dropped_not_finite;
+        if dropped > 0 {
+            warnings.push(format!(
+                "{dropped} points were left out, since their coordinates are not finite."
+            ));
+        }
+        let stated = unit.or(file.ply.stated_unit);
+        let (unit, _, doubt) = unit_guess::resolve(&file.ply.cloud, stated);
+        warnings.extend(doubt);
         let peduncle = find_peduncle(path, &file.ply.cloud, choice)?;
         Ok(Self {
             file,
@@ -99,12 +103,14 @@ fn find_peduncle(
     cloud: &Cloud,
     choice: &PeduncleChoice,
 ) -> Result<Option<Peduncle>, FruitError> {
-    let by_file = |companion: &Path| Peduncle::by_companion(cloud, &read_cloud(companion)?.ply.cloud).map_err(|error| {
-        FruitError::Peduncle {
-            path: companion.to_path_buf(),
-            error,
-        }
-    });
+    let by_file = |companion: &Path| {
+        Peduncle::by_companion(cloud, &read_cloud(companion)?.ply.cloud).map_err(|error| {
+            FruitError::Peduncle {
+                path: companion.to_path_buf(),
+                error,
+            }
+        })
+    };
     let asked = |found: Result<Peduncle, PeduncleError>| {
         found.map(Some).map_err(|error| FruitError::Peduncle {
             path: path.to_path_buf(),

@@ -1,10 +1,14 @@
-//! Bytes to clouds and back.
+//! Bytes to clouds and back, and reports.
 //!
 //! Readers take bytes, so that a browser build can hand them what it fetched; [`read_cloud`] is the
 //! one place here that opens a file.
 
 mod cloud_file;
+mod fruit;
 pub mod ply;
+mod report;
 pub mod unit_guess;
 
 pub use cloud_file::{CloudFile, ReadError, ReadErrorKind, parse_cloud, read_cloud};
+pub use fruit::{Fruit, FruitError, PeduncleChoice, companion_path};
+pub use report::{AnalysisReport, Request, SCHEMA, Timings};

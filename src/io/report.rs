@@ -139,7 +139,11 @@ impl AnalysisReport {
         timings_ms: Timings,
     ) -> Self {
         let planes = &analysis.planes;
-        let rows = planes.grid.candidates().zip(&planes.terms).zip(analysis.ranking.scores_cm());
+        let rows = planes
+            .grid
+            .candidates()
+            .zip(&planes.terms)
+            .zip(analysis.ranking.scores_cm());
         Self {
             schema: SCHEMA,
             cloud: CloudReport {
