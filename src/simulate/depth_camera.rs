@@ -1,0 +1,280 @@
+//! A depth camera at the origin: what it can see of a mesh, and the errors it makes.
+//!
+//! The model is a pinhole with a z-buffer. Each pixel measures one depth; the errors are those that
+//! trouble a symmetry search: noise that grows with distance, depth in steps, and holes where the
+//! surface turns away or at random. Errors of neighboring pixels are independent, and no pixel mixes
+//! the depths on both sides of an edge; a real camera is less kind in both.
+
+use glam::{DVec2, DVec3, Vec3};
+use rand::{Rng, RngExt};
+use rand_distr::StandardNormal;
+use serde::{Deserialize, Serialize};
+
+use super::SimulateError;
+use super::error::within;
+use super::mesh::Mesh;
+
+/// The working range of an Intel `RealSense` SR300, the paper's camera (§ 2.1).
+pub(super) const SR300_RANGE_CM: (f64, f64) = (20.0, 150.0);
+
+/// The distance at which the settings state the noise, about where a picker's camera works.
+const NOISE_STATED_AT_CM: f64 = 40.0;
+
+/// The standard deviation of a depth measured at `depth_cm`, given that at 40 cm. It grows with the
+/// square of the distance, as that of any camera that triangulates.
+pub(super) fn noise_sd_cm(at_40_cm: f64, depth_cm: f64) -> f64 {
+    at_40_cm * (depth_cm / NOISE_STATED_AT_CM).powi(2)
+}
+
+/// A pinhole depth camera at the origin that looks along +z, with the image's y axis down.
+///
+/// The defaults resemble an Intel `RealSense` SR300: 640 × 480 depth pixels, 475 px of focal length as
+/// such cameras are calibrated (68° × 54° of view), and a range of 20 to 150 cm.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DepthCamera {
+    /// Pixels across, 16 to 4096.
+    pub width_px: u32,
+    /// Pixels down, 16 to 4096.
+    pub height_px: u32,
+    /// Focal length in pixels, the same across and down, 10 to 100,000. The principal point is the
+    /// middle of the image.
+    pub focal_px: f64,
+    /// The nearest depth measured, above 0 cm.
+    pub near_cm: f64,
+    /// The farthest depth measured, above the nearest and at most 1000 cm.
+    pub far_cm: f64,
+    /// Standard deviation of a depth at 40 cm, 0 to 10 cm: σ(z) = `noise_cm` · (z / 40 cm)².
+    pub noise_cm: f64,
+    /// Depths are whole multiples of this, 0 to 10 cm; 0 for no steps. The default is the millimeter
+    /// in which depth images are mostly stored; the sensor itself counts eighths of it.
+    pub step_cm: f64,
+    /// Between the ray and the surface's normal, the angle from which pixels begin to fail, 0 to
+    /// 90°. The share that fails rises as the angle's cosine falls, to all at 90°.
+    pub grazing_deg: f64,
+    /// The share of all other pixels that fail at random, 0 to 0.99.
+    pub dropout: f64,
+}
+
+impl Default for DepthCamera {
+    fn default() -> Self {
+        Self {
+            width_px: 640,
+            height_px: 480,
+            focal_px: 475.0,
+            near_cm: SR300_RANGE_CM.0,
+            far_cm: SR300_RANGE_CM.1,
+            noise_cm: 0.05,
+            step_cm: 0.1,
+            grazing_deg: 70.0,
+            dropout: 0.01,
+        }
+    }
+}
+
+/// What the camera measured in one pixel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measured {
+    pub(super) point_in_camera: DVec3,
+    pub(super) color: Vec3,
+    pub(super) label: i32,
+}
+
+/// The nearest surface in each pixel.
+#[derive(Debug, Clone)]
+pub(super) struct DepthImage {
+    width: usize,
+    /// Infinite where there is nothing.
+    pub(super) depths_cm: Vec<f64>,
+    triangles: Vec<u32>,
+}
+
+impl DepthImage {
+    /// How many pixels show anything.
+    pub(super) fn covered(&self) -> usize {
+        self.depths_cm.iter().filter(|d| d.is_finite()).count()
+    }
+
+    /// The pixels (their places in the rows) that show something.
+    fn filled(&self) -> impl Iterator<Item = usize> {
+        (0..self.depths_cm.len()).filter(|&i| self.depths_cm[i].is_finite())
+    }
+
+    /// The corners of the smallest rectangle of pixels that holds all that is seen.
+    pub(super) fn bounds(&self) -> (DVec2, DVec2) {
+        let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        self.filled().fold(none, |(low, high), place| {
+            let pixel = self.pixel(place);
+            (low.min(pixel), high.max(pixel))
+        })
+    }
+
+    /// The middle of a pixel, in pixels.
+    fn pixel(&self, place: usize) -> DVec2 {
+        DVec2::new((place % self.width) as f64, (place / self.width) as f64)
+    }
+}
+
+/// A triangle in the image.
+struct Projected {
+    corners: [DVec2; 3],
+    inverse_depths: [f64; 3],
+    twice_the_area: f64,
+}
+
+impl Projected {
+    /// The inverse depth at a pixel and each corner's share in it, or nothing where the pixel is
+    /// outside. Edges belong to both neighbors: the z-buffer settles which of the two is kept.
+    fn at(&self, pixel: DVec2) -> Option<(f64, [f64; 3])> {
+        let [a, b, c] = self.corners;
+        let shares = [
+            (c - b).perp_dot(pixel - b) / self.twice_the_area,
+            (a - c).perp_dot(pixel - c) / self.twice_the_area,
+            (b - a).perp_dot(pixel - a) / self.twice_the_area,
+        ];
+        if shares.iter().any(|&s| s < -1e-12) {
+            return None;
+        }
+        let weighted = [
+            shares[0] * self.inverse_depths[0],
+            shares[1] * self.inverse_depths[1],
+            shares[2] * self.inverse_depths[2],
+        ];
+        Some((weighted.iter().sum(), weighted))
+    }
+}
+
+impl DepthCamera {
+    /// Refuses what makes no sense.
+    pub(super) fn check(&self) -> Result<(), SimulateError> {
+        const PIXELS: (f64, f64) = (16.0, 4096.0);
+        within("width_px", self.width_px.into(), PIXELS, "16 to 4096")?;
+        within("height_px", self.height_px.into(), PIXELS, "16 to 4096")?;
+        within("focal_px", self.focal_px, (10.0, 1e5), "10 to 100000")?;
+        within("near_cm", self.near_cm, (1e-3, 1000.0), "0.001 to 1000")?;
+        let beyond_near = (self.near_cm, 1000.0);
+        within(
+            "far_cm",
+            self.far_cm,
+            beyond_near,
+            "above near_cm and at most 1000",
+        )?;
+        within("noise_cm", self.noise_cm, (0.0, 10.0), "0 to 10")?;
+        within("step_cm", self.step_cm, (0.0, 10.0), "0 to 10")?;
+        within("grazing_deg", self.grazing_deg, (0.0, 90.0), "0 to 90")?;
+        within("dropout", self.dropout, (0.0, 0.99), "0 to 0.99")
+    }
+
+    /// The middle of the image, in pixels; pixel centers are whole numbers.
+    fn middle(&self) -> DVec2 {
+        DVec2::new(f64::from(self.width_px - 1), f64::from(self.height_px - 1)) / 2.0
+    }
+
+    /// Half the width and half the height of what is seen at a depth of 1.
+    pub(super) fn half_view(&self) -> DVec2 {
+        self.middle() / self.focal_px
+    }
+
+    /// The point at depth 1 that a pixel looks at.
+    pub(super) fn ray(&self, pixel: DVec2) -> DVec3 {
+        ((pixel - self.middle()) / self.focal_px).extend(1.0)
+    }
+
+    fn project(&self, mesh: &Mesh, triangle: u32) -> Option<Projected> {
+        let corners = mesh.triangles[triangle as usize].map(|i| mesh.positions[i as usize]);
+        // What reaches behind the camera cannot be projected; it is far nearer than any depth camera sees.
+        if corners.iter().any(|p| p.z < 1e-3) {
+            return None;
+        }
+        let flat = corners.map(|p| p.truncate() * self.focal_px / p.z + self.middle());
+        let twice_the_area = (flat[1] - flat[0]).perp_dot(flat[2] - flat[0]);
+        (twice_the_area != 0.0).then_some(Projected {
+            corners: flat,
+            inverse_depths: corners.map(|p| 1.0 / p.z),
+            twice_the_area,
+        })
+    }
+
+    /// The nearest surface of the mesh in each pixel, free of errors.
+    pub(super) fn look(&self, mesh: &Mesh) -> DepthImage {
+        let (width, height) = (self.width_px as usize, self.height_px as usize);
+        let mut image = DepthImage {
+            width,
+            depths_cm: vec![f64::INFINITY; width * height],
+            triangles: vec![0; width * height],
+        };
+        for triangle in 0..mesh.triangles.len() as u32 {
+            let Some(flat) = self.project(mesh, triangle) else {
+                continue;
+            };
+            let [a, b, c] = flat.corners;
+            // Clamped to the image before they become whole: an empty range where it is outside.
+            let size = DVec2::new(width as f64, height as f64);
+            let low = a.min(b).min(c).ceil().clamp(DVec2::ZERO, size);
+            let high = (a.max(b).max(c).floor() + 1.0).clamp(DVec2::ZERO, size);
+            for row in low.y as usize..high.y as usize {
+                for column in low.x as usize..high.x as usize {
+                    if let Some((inverse, _)) = flat.at(DVec2::new(column as f64, row as f64)) {
+                        let place = row * width + column;
+                        if inverse * image.depths_cm[place] > 1.0 {
+                            image.depths_cm[place] = 1.0 / inverse;
+                            image.triangles[place] = triangle;
+                        }
+                    }
+                }
+            }
+        }
+        image
+    }
+
+    /// What the camera makes of the image: a point for each pixel that works, row by row.
+    pub(super) fn measure(&self, mesh: &Mesh, image: &DepthImage, rng: &mut impl Rng) -> Vec<Measured> {
+        image
+            .filled()
+            .filter_map(|place| {
+                // Every pixel takes its three numbers, used or not: a changed setting then changes
+                // what it is about and leaves the other pixels' luck alone.
+                let luck: [f64; 2] = rng.random();
+                let error: f64 = rng.sample(StandardNormal);
+                self.measure_pixel(mesh, image, place, luck, error)
+            })
+            .collect()
+    }
+
+    fn measure_pixel(
+        &self,
+        mesh: &Mesh,
+        image: &DepthImage,
+        place: usize,
+        luck: [f64; 2],
+        error: f64,
+    ) -> Option<Measured> {
+        let triangle = image.triangles[place];
+        let corners = mesh.triangles[triangle as usize].map(|i| i as usize);
+        let pixel = image.pixel(place);
+        let ray = self.ray(pixel);
+        let (inverse, weighted) = self.project(mesh, triangle)?.at(pixel)?;
+        let share = weighted.map(|w| w / inverse);
+        let normal = (0..3).map(|i| mesh.normals[corners[i]] * share[i]).sum::<DVec3>();
+        let cos = (normal.dot(ray) / (normal.length() * ray.length())).abs();
+        let cos_grazing = self.grazing_deg.to_radians().cos();
+        let fails = luck[0] < self.dropout || luck[1] * cos_grazing > cos;
+        let depth_cm = self.depth_read_cm(image.depths_cm[place], error);
+        let seen = (self.near_cm..=self.far_cm).contains(&depth_cm);
+        (seen && !fails).then(|| Measured {
+            point_in_camera: ray * depth_cm,
+            color: (0..3).map(|i| mesh.colors[corners[i]] * share[i] as f32).sum(),
+            label: mesh.labels[corners[0]],
+        })
+    }
+
+    /// The depth that comes out of the camera, for an error in standard deviations.
+    fn depth_read_cm(&self, depth_cm: f64, error: f64) -> f64 {
+        let noisy_cm = depth_cm + error * noise_sd_cm(self.noise_cm, depth_cm);
+        if self.step_cm > 0.0 {
+            (noisy_cm / self.step_cm).round() * self.step_cm
+        } else {
+            noisy_cm
+        }
+    }
+}

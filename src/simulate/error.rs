@@ -1,0 +1,61 @@
+//! What makes a simulation impossible, and the checks that find it out.
+
+use glam::DVec3;
+
+/// Why no cloud was simulated.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum SimulateError {
+    /// A setting is not a number, or outside the values that make sense.
+    #[error("{name} is {value}; it must be {allowed}")]
+    Setting {
+        /// The setting, as its field is called.
+        name: &'static str,
+        /// What it was.
+        value: f64,
+        /// The values that would do, in words.
+        allowed: &'static str,
+    },
+    /// The viewpoint is inside the ellipsoid or on it, where no point of the surface faces it.
+    #[error("the viewpoint is inside the ellipsoid: move its center farther away or shrink its half-axes")]
+    ViewpointInside,
+    /// The ellipsoid shows the camera too little of itself to place the wanted points.
+    #[error("only {found} of {wanted} points were found on the side that faces the viewpoint")]
+    TooLittleVisible {
+        /// Points found before the search was given up.
+        found: usize,
+        /// Points asked for.
+        wanted: usize,
+    },
+    /// No point of the fruit was seen: it is outside the image or the camera's range, or hidden.
+    #[error(
+        "the camera sees no point of the fruit: it is outside the image or the camera's range, or hidden"
+    )]
+    NothingVisible,
+}
+
+/// Refuses a value outside `low..=high`, NaN included.
+pub(super) fn within(
+    name: &'static str,
+    value: f64,
+    (low, high): (f64, f64),
+    allowed: &'static str,
+) -> Result<(), SimulateError> {
+    if (low..=high).contains(&value) {
+        Ok(())
+    } else {
+        Err(SimulateError::Setting { name, value, allowed })
+    }
+}
+
+/// Refuses a vector with a component outside `low..=high`, NaN included.
+pub(super) fn each_within(
+    name: &'static str,
+    value: DVec3,
+    range: (f64, f64),
+    allowed: &'static str,
+) -> Result<(), SimulateError> {
+    value
+        .to_array()
+        .into_iter()
+        .try_for_each(|component| within(name, component, range, allowed))
+}

@@ -1,0 +1,71 @@
+//! A sweet pepper before a depth camera.
+
+mod body;
+mod color;
+mod drawn;
+mod leaf;
+mod peduncle;
+mod settings;
+
+use self::drawn::Drawn;
+use super::depth_camera::Measured;
+use super::random::{Stream, stream};
+use super::{SimulateError, Simulated};
+use crate::geometry::Cloud;
+
+pub use self::color::FruitColor;
+pub use self::settings::PepperSettings;
+
+impl PepperSettings {
+    /// Draws what is open, builds the fruit, and looks at it.
+    ///
+    /// The cloud is in centimeters in the camera's frame, a point for each pixel that measured one,
+    /// row by row, with colors and the labels of [`Cloud`], and without normals: a camera gives none.
+    ///
+    /// # Errors
+    /// Where a setting makes no sense, or the camera sees nothing of the fruit.
+    pub fn simulate(&self) -> Result<Simulated, SimulateError> {
+        self.check()?;
+        let drawn = Drawn::new(self)?;
+        let camera = &self.camera;
+        let mut scene = drawn.fruit_in_camera();
+        let mut image = camera.look(&scene);
+        if image.covered() == 0 {
+            return Err(SimulateError::NothingVisible);
+        }
+        let mut hidden_by_leaf = None;
+        if self.leaf_cover > 0.0 {
+            let (leaf, hidden) = drawn.leaf.covering(self.leaf_cover, camera, &image, &drawn.paint);
+            scene.append(&leaf);
+            image = camera.look(&scene);
+            hidden_by_leaf = Some(hidden);
+        }
+        let measured = camera.measure(&scene, &image, &mut stream(self.seed, Stream::Camera));
+        if !measured.iter().any(|m| m.label == Cloud::FRUIT) {
+            return Err(SimulateError::NothingVisible);
+        }
+        Ok(Simulated {
+            cloud: cloud_of(&measured),
+            truth: drawn.into_truth(hidden_by_leaf),
+        })
+    }
+}
+
+/// The measured points as a cloud.
+///
+/// # Panics
+/// Never: each point brings its own color and label.
+fn cloud_of(measured: &[Measured]) -> Cloud {
+    const LENGTHS: &str = "a color and a label for each point";
+    // Clamped to bytes before they become whole.
+    let byte = |channel: f32| channel.round().clamp(0.0, 255.0) as u8;
+    let colors = measured.iter().map(|m| {
+        let [r, g, b] = m.color.to_array().map(byte);
+        [r, g, b, u8::MAX]
+    });
+    Cloud::new(measured.iter().map(|m| m.point_in_camera).collect())
+        .with_colors(colors.collect())
+        .expect(LENGTHS)
+        .with_labels(measured.iter().map(|m| m.label).collect())
+        .expect(LENGTHS)
+}
