@@ -1,1 +1,3 @@
 //! Bytes to clouds and back.
+
+pub mod figures;
