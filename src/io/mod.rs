@@ -1,9 +1,10 @@
-//! Bytes to clouds and back, and reports.
+//! Bytes to clouds and back, reports and figures.
 //!
 //! Readers take bytes, so that a browser build can hand them what it fetched; [`read_cloud`] is the
 //! one place here that opens a file.
 
 mod cloud_file;
+pub mod figures;
 mod fruit;
 pub mod ply;
 mod report;

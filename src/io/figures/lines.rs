@@ -1,0 +1,221 @@
+//! Series over a numeric axis, each with a band for its spread: the error per distance of Fig. 8.
+
+use super::{
+    FigureError, Guide, Labels,
+    canvas::Canvas,
+    finite,
+    frame::{Frame, Plot, Under, draw_stack},
+    legend::{Entry, Sign, draw_head},
+    scale::Scale,
+    style,
+};
+
+/// One position of a series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinePoint {
+    /// The position along the x axis.
+    pub x: f64,
+    /// The value there; the line is broken where there is none.
+    pub y: Option<f64>,
+    /// Half the height of the band, a standard deviation say.
+    pub spread: Option<f64>,
+}
+
+/// A named series. Its points are drawn in the order given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineSeries {
+    /// What the legend calls it.
+    pub name: String,
+    /// Its positions, in rising x.
+    pub points: Vec<LinePoint>,
+}
+
+/// Series that share a y axis.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LinePanel {
+    /// The series.
+    pub series: Vec<LineSeries>,
+    /// Values to compare them with.
+    pub guides: Vec<Guide>,
+    /// Where the y axis starts and ends; what lies beyond is cut off. `None` takes in everything.
+    pub y_range: Option<(f64, f64)>,
+}
+
+/// A line chart of one panel or of several below each other that share their x axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineChart {
+    /// Title and axes; every panel has the same y label.
+    pub labels: Labels,
+    /// The panels, from top to bottom.
+    pub panels: Vec<LinePanel>,
+}
+
+/// Up to this many positions each gets a dot; beyond it the dots would hide the line.
+const MOST_DOTS: usize = 60;
+
+impl LineChart {
+    /// A chart with all series and guides in one panel.
+    pub fn new(labels: Labels, series: Vec<LineSeries>, guides: Vec<Guide>) -> Self {
+        Self { labels, panels: vec![LinePanel { series, guides, y_range: None }] }
+    }
+
+    /// The same chart with the series that lie far above the others in a panel of their own, where there are such.
+    ///
+    /// Far is a factor of three or more between the medians of two series that follow each other in height. A guide goes to the
+    /// panel whose series are nearer. Charts that have several panels already stay as they are.
+    #[must_use]
+    pub fn split_by_level(mut self) -> Self {
+        const FAR: f64 = 3.0;
+        let [panel] = self.panels.as_mut_slice() else { return self };
+        let mut levels: Vec<f64> = panel.series.iter().filter_map(LineSeries::median).collect();
+        levels.sort_by(f64::total_cmp);
+        let widest = (levels.windows(2).filter(|pair| pair[0] > 0.0).map(|pair| (pair[1] / pair[0], pair)))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((ratio, &[below, above])) = widest.map(|(ratio, pair)| (ratio, pair)).and_then(as_two) else {
+            return self;
+        };
+        if ratio < FAR {
+            return self;
+        }
+        // Half-way on the scale of ratios.
+        let border = (below * above).sqrt();
+        let (high, low) = (panel.series.drain(..))
+            .partition(|series: &LineSeries| series.median().is_some_and(|median| median > border));
+        let (high_guides, low_guides) = panel.guides.drain(..).partition(|guide| guide.value > border);
+        self.panels = vec![
+            LinePanel { series: high, guides: high_guides, y_range: None },
+            LinePanel { series: low, guides: low_guides, y_range: None },
+        ];
+        self
+    }
+
+    pub(super) fn draw(&self) -> Result<Canvas, FigureError> {
+        let all_series = || self.panels.iter().flat_map(|panel| &panel.series);
+        let positions = all_series().flat_map(LineSeries::drawn).map(|(x, ..)| x);
+        let x = Scale::around(positions, 10)?.ok_or(FigureError::Empty)?;
+        let tick_count = if self.panels.len() > 1 { 4 } else { 6 };
+        let last = self.panels.len().saturating_sub(1);
+        let frames = (self.panels.iter().enumerate())
+            .map(|(index, panel)| {
+                Ok(Frame {
+                    x,
+                    y: panel.y_scale(tick_count)?,
+                    x_label: &self.labels.x,
+                    y_label: &self.labels.y,
+                    under: if index == last { Under::Numbers } else { Under::Nothing },
+                    rows: None,
+                    guides: &panel.guides,
+                    beside: 0.0,
+                })
+            })
+            .collect::<Result<Vec<_>, FigureError>>()?;
+
+        let mut canvas = Canvas::new();
+        let entries: Vec<Entry> = (all_series().enumerate())
+            .map(|(index, series)| Entry {
+                sign: Sign::Line { color: style::series_color(index), dash: style::series_dash(index) },
+                name: series.name.clone(),
+            })
+            .collect();
+        let top = draw_head(&mut canvas, &self.labels.title, &entries);
+        let plots = draw_stack(&mut canvas, &frames, top)?;
+        let mut first_index = 0;
+        for ((panel, plot), frame) in self.panels.iter().zip(&plots).zip(&frames) {
+            frame.draw_guides(&mut canvas, plot);
+            canvas.within(plot.area, |canvas| panel.draw(canvas, plot, first_index));
+            first_index += panel.series.len();
+        }
+        Ok(canvas)
+    }
+}
+
+/// A slice of two as an array, beside the ratio that it gave.
+fn as_two((ratio, pair): (f64, &[f64])) -> Option<(f64, &[f64; 2])> {
+    pair.try_into().ok().map(|pair| (ratio, pair))
+}
+
+impl LinePanel {
+    fn y_scale(&self, tick_count: usize) -> Result<Scale, FigureError> {
+        if let Some((low, high)) = self.y_range {
+            return Scale::given(low, high, tick_count);
+        }
+        let floor = self.floor();
+        let reach = |(_, y, spread): (f64, f64, f64)| [(y - spread).max(floor), y + spread];
+        let values = self.series.iter().flat_map(LineSeries::drawn).flat_map(reach);
+        let guides = self.guides.iter().map(|guide| guide.value);
+        Scale::holding(values.chain(guides), false, tick_count)?.ok_or(FigureError::Empty)
+    }
+
+    /// Where bands are cut off: below zero there is nothing to show of a quantity that is never negative.
+    fn floor(&self) -> f64 {
+        let never_negative = self.series.iter().flat_map(LineSeries::drawn).all(|(_, y, _)| y >= 0.0);
+        if never_negative { 0.0 } else { f64::NEG_INFINITY }
+    }
+
+    /// Draws all bands, then all lines: no band hides the line of another series.
+    fn draw(&self, canvas: &mut Canvas, plot: &Plot, first_index: usize) {
+        let floor = self.floor();
+        for (index, series) in self.series.iter().enumerate() {
+            for run in series.runs() {
+                let upper = run.iter().map(|&(x, y, spread)| plot.at((x, y + spread)));
+                let lower = run.iter().rev().map(|&(x, y, spread)| plot.at((x, (y - spread).max(floor))));
+                if run.len() > 1 && run.iter().any(|&(.., spread)| spread > 0.0) {
+                    let outline: Vec<_> = upper.chain(lower).collect();
+                    canvas.polygon(&outline, style::series_color(first_index + index), 0.13);
+                }
+            }
+        }
+        for (index, series) in self.series.iter().enumerate() {
+            let color = style::series_color(first_index + index);
+            let with_dots = series.points.len() <= MOST_DOTS;
+            for run in series.runs() {
+                let points: Vec<_> = run.iter().map(|&(x, y, _)| plot.at((x, y))).collect();
+                if with_dots || points.len() == 1 {
+                    points.iter().for_each(|&point| canvas.dot(point, 3.4, color, 1.0));
+                }
+                // A lone point has no line to show its spread on: it gets a bar.
+                if let [(x, y, spread)] = run[..]
+                    && spread > 0.0
+                {
+                    let (low, high) = (plot.at((x, (y - spread).max(floor))), plot.at((x, y + spread)));
+                    canvas.line(low, high, color, 1.5, None);
+                }
+                if points.len() > 1 {
+                    canvas.polyline(points, color, 2.6, style::series_dash(first_index + index));
+                }
+            }
+        }
+    }
+}
+
+impl LineSeries {
+    /// A series of values without a spread.
+    pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = (f64, Option<f64>)>) -> Self {
+        let points = points.into_iter().map(|(x, y)| LinePoint { x, y, spread: None }).collect();
+        Self { name: name.into(), points }
+    }
+
+    /// Position, value and spread (0 where there is none) of the points that can be drawn.
+    fn drawn(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+        self.points.iter().filter_map(LinePoint::drawn)
+    }
+
+    /// The points that can be drawn, broken where one between them cannot.
+    fn runs(&self) -> Vec<Vec<(f64, f64, f64)>> {
+        let broken = self.points.split(|point| point.drawn().is_none());
+        broken.filter(|run| !run.is_empty()).map(|run| run.iter().filter_map(LinePoint::drawn).collect()).collect()
+    }
+
+    fn median(&self) -> Option<f64> {
+        let mut values: Vec<f64> = self.drawn().map(|(_, y, _)| y).collect();
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    }
+}
+
+impl LinePoint {
+    fn drawn(&self) -> Option<(f64, f64, f64)> {
+        let y = finite(self.y)?;
+        self.x.is_finite().then_some((self.x, y, finite(self.spread).map_or(0.0, f64::abs)))
+    }
+}
