@@ -3,6 +3,7 @@
 mod analyze;
 mod options;
 mod progress;
+mod simulate;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -30,10 +31,11 @@ struct Cli {
 }
 
 #[derive(Debug, Subcommand)]
-#[expect(clippy::large_enum_variant, reason = "there is one, parsed once")]
 enum Command {
     /// Find the symmetry plane and axis of one cloud
     Analyze(analyze::Analyze),
+    /// Make clouds whose axis is known
+    Simulate(simulate::Simulate),
     /// Print a completion script for a shell
     Completions {
         /// The shell that will read it
@@ -50,6 +52,10 @@ pub(crate) fn main() -> ExitCode {
     match run(cli) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) if error.is::<clap::Error>() => {
+            eprint!("{error:#}");
+            ExitCode::from(2)
+        }
         Err(error) => {
             eprintln!("axiscope: {error:#}");
             ExitCode::FAILURE
@@ -63,6 +69,7 @@ fn run(cli: Cli) -> anyhow::Result<()> {
     }
     match cli.command {
         Command::Analyze(analyze) => analyze::run(&analyze),
+        Command::Simulate(simulate) => simulate::run(&simulate),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "axiscope", &mut script);
@@ -107,6 +114,11 @@ fn use_threads(threads: usize) -> anyhow::Result<()> {
         "this build runs on one thread: it lacks the feature `parallel`"
     );
     Ok(())
+}
+
+/// An error of whoever typed the command line, found only after it was parsed.
+fn usage_error(message: &str) -> anyhow::Error {
+    clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{message}\n")).into()
 }
 
 /// Whether whoever read our output has gone away, as `head` does: no failure of ours.

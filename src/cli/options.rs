@@ -222,7 +222,7 @@ fn neighbor_count(text: &str) -> Result<NonZeroUsize, String> {
     }
 }
 
-fn number(text: &str) -> Result<f64, String> {
+pub(super) fn number(text: &str) -> Result<f64, String> {
     let value = text.trim().parse::<f64>().map_err(|_| "expected a number")?;
     if value.is_finite() {
         Ok(value)
@@ -238,7 +238,7 @@ fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     match number(text)? {
         value if value > 0.0 => Ok(value),
         _ => Err("expected more than 0".into()),

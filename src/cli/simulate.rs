@@ -1,0 +1,440 @@
+//! `axiscope simulate`: clouds with a known axis, and the truth beside them.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use axiscope::geometry::Unit;
+use axiscope::io::ply::{self, WriteOptions};
+use axiscope::simulate::{
+    EllipsoidSettings, FruitColor, PepperSettings, SimulateError, Simulated, Truth, seeds,
+};
+use clap::{Args, Subcommand, ValueEnum};
+use glam::DVec3;
+
+use super::options::{number, position, positive};
+use super::{progress, usage_error};
+
+#[derive(Debug, Args)]
+pub(super) struct Simulate {
+    #[command(subcommand)]
+    shape: Shape,
+}
+
+#[derive(Debug, Subcommand)]
+enum Shape {
+    /// The paper's ellipsoid (§ 2.1), the part that faces the camera
+    Ellipsoid(Ellipsoid),
+    /// A lobed, tapered pepper with a peduncle, as a depth camera sees it
+    Pepper(Box<Pepper>),
+}
+
+/// Where clouds go, and how many.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+struct Output {
+    /// The PLY file to write, or a folder for several; the truth goes beside it as NAME.truth.json
+    /// [default: the shape's name]
+    #[arg(short, long, value_name = "PATH")]
+    out: Option<PathBuf>,
+    /// How many clouds, each with a seed of its own that follows from --seed
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    count: u32,
+    /// Seed of everything random
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Unit of the file's coordinates
+    #[arg(long, value_enum, default_value = "cm")]
+    unit: UnitOption,
+    /// How the numbers stand in the file
+    #[arg(long, value_enum, default_value = "binary")]
+    encoding: EncodingOption,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum UnitOption {
+    /// Meters
+    M,
+    /// Centimeters
+    Cm,
+    /// Millimeters
+    Mm,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum EncodingOption {
+    /// Binary, little-endian
+    Binary,
+    /// Text
+    Ascii,
+}
+
+#[derive(Debug, Args)]
+struct Ellipsoid {
+    #[command(flatten)]
+    output: Output,
+    /// Half-axes along x, y and z, in cm
+    #[arg(long, value_name = "X,Y,Z", default_value = "2.5,2.5,2", value_parser = position, allow_hyphen_values = true)]
+    half_axes_cm: DVec3,
+    /// The center's x and y, in cm
+    #[arg(long, value_name = "X,Y", default_value = "3,5", value_parser = pair, allow_hyphen_values = true)]
+    center_cm: [f64; 2],
+    /// The center's depth in cm, or a range FROM..TO[:STEP]: the paper's is 25..70:1
+    #[arg(long, value_name = "Z", default_value = "25", value_parser = depths, allow_hyphen_values = true)]
+    z0_cm: Depths,
+    /// Visible points; the paper does not tell
+    #[arg(long, value_name = "N", default_value_t = 3000)]
+    points: usize,
+    /// Standard deviation of the depth at 40 cm, growing with the distance's square
+    #[arg(long, value_name = "CM", default_value_t = 0.0, value_parser = number, allow_hyphen_values = true)]
+    noise_cm: f64,
+}
+
+/// Depths to simulate at, in cm, ascending.
+#[derive(Debug, Clone)]
+struct Depths(Vec<f64>);
+
+/// What is not set is drawn by the seed.
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
+struct Pepper {
+    #[command(flatten)]
+    output: Output,
+    /// Leave the peduncle's points out: the paper's second variant (§ 3.2)
+    #[arg(long)]
+    without_peduncle: bool,
+    /// Start from the settings in a truth file (or a JSON object of settings) instead of the defaults
+    #[arg(long, value_name = "FILE")]
+    settings: Option<PathBuf>,
+
+    /// From the lowest lobe to the shoulders, in cm
+    #[arg(long, value_name = "CM", help_heading = "Fruit")]
+    height_cm: Option<f64>,
+    /// Twice the largest distance of a lobe from the axis, in cm
+    #[arg(long, value_name = "CM", help_heading = "Fruit")]
+    width_cm: Option<f64>,
+    /// How many lobes
+    #[arg(long, value_name = "N", help_heading = "Fruit")]
+    lobes: Option<u32>,
+    /// Depth of the grooves between lobes, relative to the radius
+    #[arg(long, value_name = "X", help_heading = "Fruit")]
+    lobe_depth: Option<f64>,
+    /// How much narrower the blossom end is, relative
+    #[arg(long, value_name = "X", help_heading = "Fruit")]
+    taper: Option<f64>,
+    /// How far the stem end is pressed in, in cm
+    #[arg(long, value_name = "CM", help_heading = "Fruit")]
+    dimple_cm: Option<f64>,
+    /// How far the fruit departs from its own symmetry, relative to its size [default: 0.03]
+    #[arg(long, value_name = "X", help_heading = "Fruit")]
+    asymmetry: Option<f64>,
+    /// The fruit's color
+    #[arg(long, value_enum, help_heading = "Fruit")]
+    color: Option<ColorOption>,
+    /// Length of the peduncle, in cm
+    #[arg(long, value_name = "CM", help_heading = "Fruit")]
+    peduncle_length_cm: Option<f64>,
+    /// Its thickness, in cm
+    #[arg(long, value_name = "CM", help_heading = "Fruit")]
+    peduncle_width_cm: Option<f64>,
+    /// The angle between the fruit's axis and the peduncle's free end, in degrees
+    #[arg(long, value_name = "DEG", help_heading = "Fruit")]
+    peduncle_bend_deg: Option<f64>,
+
+    /// How far the stem end leans towards the camera, in degrees
+    #[arg(long, value_name = "DEG", help_heading = "Pose")]
+    tilt_towards_camera_deg: Option<f64>,
+    /// How far the axis leans to the image's right, in degrees
+    #[arg(long, value_name = "DEG", help_heading = "Pose")]
+    tilt_sideways_deg: Option<f64>,
+    /// The largest lean towards the camera or away that is drawn [default: 25]
+    #[arg(long, value_name = "DEG", help_heading = "Pose")]
+    max_tilt_towards_camera_deg: Option<f64>,
+    /// The largest lean to a side that is drawn [default: 25]
+    #[arg(long, value_name = "DEG", help_heading = "Pose")]
+    max_tilt_sideways_deg: Option<f64>,
+    /// The turn about the fruit's own axis, in degrees
+    #[arg(long, value_name = "DEG", help_heading = "Pose")]
+    spin_deg: Option<f64>,
+    /// The nearest and farthest depth that are drawn, in cm [default: 30,60]
+    #[arg(long, value_name = "NEAR,FAR", value_parser = pair, help_heading = "Pose")]
+    distance_cm: Option<[f64; 2]>,
+    /// The fruit's center in the camera's frame, in cm
+    #[arg(long, value_name = "X,Y,Z", value_parser = position, allow_hyphen_values = true, help_heading = "Pose")]
+    center_cm: Option<DVec3>,
+
+    /// Share of the fruit that a leaf in front of it hides
+    #[arg(long, value_name = "F", help_heading = "Camera")]
+    leaf_cover: Option<f64>,
+    /// Standard deviation of a depth at 40 cm, in cm
+    #[arg(long, value_name = "CM", help_heading = "Camera")]
+    noise_cm: Option<f64>,
+    /// Depths are whole multiples of this, in cm; 0 for none
+    #[arg(long, value_name = "CM", help_heading = "Camera")]
+    depth_step_cm: Option<f64>,
+    /// The angle between ray and normal from which pixels begin to fail
+    #[arg(long, value_name = "DEG", help_heading = "Camera")]
+    grazing_deg: Option<f64>,
+    /// The share of all other pixels that fail at random
+    #[arg(long, value_name = "F", help_heading = "Camera")]
+    dropout: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ColorOption {
+    Red,
+    Yellow,
+    Green,
+}
+
+pub(super) fn run(args: &Simulate) -> anyhow::Result<()> {
+    match &args.shape {
+        Shape::Ellipsoid(args) => ellipsoids(args),
+        Shape::Pepper(args) => peppers(args),
+    }
+}
+
+fn ellipsoids(args: &Ellipsoid) -> anyhow::Result<()> {
+    let [x, y] = args.center_cm;
+    let at = |z0: f64, seed: u64| EllipsoidSettings {
+        half_axes_cm: args.half_axes_cm,
+        center_cm: DVec3::new(x, y, z0),
+        points: args.points,
+        noise_cm: args.noise_cm,
+        seed,
+    };
+    let seeds = seeds(args.output.seed, args.output.count as usize);
+    let mut jobs = Vec::new();
+    for &z0 in &args.z0_cm.0 {
+        // Several depths tell their clouds apart by it: ellipsoid_z025.0_000.
+        let depth = if args.z0_cm.0.len() > 1 {
+            format!("_z{z0:05.1}")
+        } else {
+            String::new()
+        };
+        jobs.extend(
+            seeds
+                .iter()
+                .enumerate()
+                .map(|(i, &seed)| (format!("ellipsoid{depth}_{i:03}"), z0, seed)),
+        );
+    }
+    let jobs = jobs.into_iter().map(|(name, z0, seed)| (name, at(z0, seed)));
+    write_all(
+        &args.output,
+        "ellipsoid",
+        &jobs.collect::<Vec<_>>(),
+        EllipsoidSettings::simulate,
+    )
+}
+
+fn peppers(args: &Pepper) -> anyhow::Result<()> {
+    let settings = args.settings()?;
+    let seeds = seeds(args.output.seed, args.output.count as usize);
+    let jobs = seeds.into_iter().enumerate().map(|(i, seed)| {
+        let settings = PepperSettings {
+            seed,
+            ..settings.clone()
+        };
+        (format!("pepper_{i:03}"), settings)
+    });
+    write_all(&args.output, "pepper", &jobs.collect::<Vec<_>>(), |settings| {
+        let simulated = settings.simulate()?;
+        Ok(if args.without_peduncle {
+            simulated.without_peduncle()
+        } else {
+            simulated
+        })
+    })
+}
+
+impl Pepper {
+    fn settings(&self) -> anyhow::Result<PepperSettings> {
+        let mut s = match &self.settings {
+            Some(path) => read_settings(path)?,
+            None => PepperSettings::default(),
+        };
+        s.height_cm = self.height_cm.or(s.height_cm);
+        s.width_cm = self.width_cm.or(s.width_cm);
+        s.lobes = self.lobes.or(s.lobes);
+        s.lobe_depth = self.lobe_depth.or(s.lobe_depth);
+        s.taper = self.taper.or(s.taper);
+        s.dimple_cm = self.dimple_cm.or(s.dimple_cm);
+        s.color = self.color.map(Into::into).or(s.color);
+        s.peduncle_length_cm = self.peduncle_length_cm.or(s.peduncle_length_cm);
+        s.peduncle_width_cm = self.peduncle_width_cm.or(s.peduncle_width_cm);
+        s.peduncle_bend_deg = self.peduncle_bend_deg.or(s.peduncle_bend_deg);
+        s.tilt_towards_camera_deg = self.tilt_towards_camera_deg.or(s.tilt_towards_camera_deg);
+        s.tilt_sideways_deg = self.tilt_sideways_deg.or(s.tilt_sideways_deg);
+        s.spin_deg = self.spin_deg.or(s.spin_deg);
+        s.center_cm = self.center_cm.or(s.center_cm);
+        set(&mut s.asymmetry, self.asymmetry);
+        set(
+            &mut s.max_tilt_towards_camera_deg,
+            self.max_tilt_towards_camera_deg,
+        );
+        set(&mut s.max_tilt_sideways_deg, self.max_tilt_sideways_deg);
+        set(&mut s.distance_cm, self.distance_cm);
+        set(&mut s.leaf_cover, self.leaf_cover);
+        set(&mut s.camera.noise_cm, self.noise_cm);
+        set(&mut s.camera.step_cm, self.depth_step_cm);
+        set(&mut s.camera.grazing_deg, self.grazing_deg);
+        set(&mut s.camera.dropout, self.dropout);
+        Ok(s)
+    }
+}
+
+fn set<T>(field: &mut T, option: Option<T>) {
+    if let Some(value) = option {
+        *field = value;
+    }
+}
+
+impl From<ColorOption> for FruitColor {
+    fn from(color: ColorOption) -> Self {
+        match color {
+            ColorOption::Red => Self::Red,
+            ColorOption::Yellow => Self::Yellow,
+            ColorOption::Green => Self::Green,
+        }
+    }
+}
+
+/// The settings of a truth file, or of a file that holds nothing else.
+fn read_settings(path: &Path) -> anyhow::Result<PepperSettings> {
+    let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    if let Ok(truth) = serde_json::from_str::<Truth>(&text) {
+        return match truth.settings {
+            axiscope::simulate::Settings::Pepper(settings) => Ok(*settings),
+            axiscope::simulate::Settings::Ellipsoid(_) => {
+                anyhow::bail!(
+                    "{}: these are an ellipsoid's settings, not a pepper's",
+                    path.display()
+                )
+            }
+        };
+    }
+    serde_json::from_str(&text).with_context(|| format!("{}: no settings of a pepper", path.display()))
+}
+
+/// Simulates each job and writes it, one after the other: the same seed gives the same bytes.
+fn write_all<S>(
+    output: &Output,
+    shape: &str,
+    jobs: &[(String, S)],
+    simulate: impl Fn(&S) -> Result<Simulated, SimulateError>,
+) -> anyhow::Result<()> {
+    let simulate = |settings: &S| {
+        simulate(settings).map_err(|error| match error {
+            SimulateError::Setting { .. } | SimulateError::ViewpointInside => usage_error(&error.to_string()),
+            _ => error.into(),
+        })
+    };
+    if let [(_, settings)] = jobs {
+        let path = output
+            .out
+            .clone()
+            .unwrap_or_else(|| format!("{shape}.ply").into());
+        let path = if path.is_dir() {
+            path.join(format!("{shape}.ply"))
+        } else {
+            path
+        };
+        let simulated = simulate(settings)?;
+        write_cloud(&path, &simulated, output)?;
+        eprintln!(
+            "Wrote {} ({} points) and its truth beside it.",
+            path.display(),
+            simulated.cloud.len()
+        );
+        return Ok(());
+    }
+    let folder = output.out.clone().unwrap_or_else(|| format!("{shape}s").into());
+    if folder.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply")) {
+        let message = format!(
+            "several clouds go into a folder, and {} names a file",
+            folder.display()
+        );
+        return Err(usage_error(&message));
+    }
+    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    let bar = progress::bar("Simulating {wide_bar} {pos}/{len}");
+    bar.set_length(jobs.len() as u64);
+    for (name, settings) in jobs {
+        let simulated = simulate(settings).with_context(|| name.clone())?;
+        write_cloud(&folder.join(format!("{name}.ply")), &simulated, output)?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    eprintln!(
+        "Wrote {} clouds with their truths to {}.",
+        jobs.len(),
+        folder.display()
+    );
+    Ok(())
+}
+
+/// Writes `NAME.ply` and `NAME.truth.json`, each whole or not at all.
+fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::Result<()> {
+    let unit = match output.unit {
+        UnitOption::M => Unit::Meter,
+        UnitOption::Cm => Unit::Centimeter,
+        UnitOption::Mm => Unit::Millimeter,
+    };
+    let simulated = simulated.clone().in_unit(unit);
+    let truth = &simulated.truth;
+    let comments = [format!(
+        "simulated by axiscope {}, seed {}",
+        truth.program_version, truth.seed
+    )];
+    let mut bytes = Vec::new();
+    let options = WriteOptions {
+        unit: Some(unit),
+        comments: &comments,
+        encoding: match output.encoding {
+            EncodingOption::Binary => ply::Encoding::BinaryLittleEndian,
+            EncodingOption::Ascii => ply::Encoding::Ascii,
+        },
+        ..WriteOptions::default()
+    };
+    ply::write(&mut bytes, &simulated.cloud, &options)?;
+    write_whole(path, &bytes)?;
+    let json = serde_json::to_string_pretty(truth)? + "\n";
+    write_whole(&path.with_extension("truth.json"), json.as_bytes())
+}
+
+/// Writes a file under a name of its own and then renames it, so that nobody ever meets half of it.
+fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    let write = || -> std::io::Result<()> {
+        let mut name = path.file_name().unwrap_or_default().to_os_string();
+        name.push(".part");
+        let part = path.with_file_name(name);
+        let mut file = std::fs::File::create(&part)?;
+        file.write_all(bytes)?;
+        std::fs::rename(&part, path)
+    };
+    write().with_context(|| path.display().to_string())
+}
+
+fn pair(text: &str) -> Result<[f64; 2], String> {
+    let (a, b) = text
+        .split_once(',')
+        .ok_or("expected two numbers with a comma between them")?;
+    Ok([number(a)?, number(b)?])
+}
+
+fn depths(text: &str) -> Result<Depths, String> {
+    let Some((from, rest)) = text.split_once("..") else {
+        return Ok(Depths(vec![number(text)?]));
+    };
+    let (to, step) = rest.split_once(':').unwrap_or((rest, "1"));
+    let (from, to, step) = (number(from)?, number(to)?, positive(step)?);
+    // A thousandth of a step forgives the rounding of the last one.
+    let steps = ((to - from) / step + 1e-3).floor();
+    if !(0.0..10_000.0).contains(&steps) {
+        return Err("expected FROM..TO[:STEP] with FROM below TO".into());
+    }
+    Ok(Depths(
+        (0..=steps as usize).map(|i| from + i as f64 * step).collect(),
+    ))
+}
