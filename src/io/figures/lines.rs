@@ -154,7 +154,7 @@ impl LineChart {
             // Dots on the edge stay whole where nothing has to be cut off.
             let bleed = if panel.y_range.is_some() { 0.0 } else { 5.0 };
             canvas.within(plot.area.grown(bleed), |canvas| {
-                panel.draw(canvas, plot, first_index)
+                panel.draw(canvas, plot, first_index);
             });
             first_index += panel.series.len();
         }
