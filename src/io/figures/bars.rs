@@ -6,7 +6,7 @@ use super::{
     finite,
     frame::{Frame, Plot, Under, draw_stack},
     legend::{Entry, Sign, draw_head},
-    scale::Scale,
+    scale::{Scale, Zero},
     style,
 };
 
@@ -46,14 +46,19 @@ impl BarChart {
                 });
             }
         }
-        let values = || self.series.iter().flat_map(|series| &series.values).filter_map(|&value| finite(value));
+        let values = || {
+            self.series
+                .iter()
+                .flat_map(|series| &series.values)
+                .filter_map(|&value| finite(value))
+        };
         if values().next().is_none() {
             return Err(FigureError::Empty);
         }
         let guides = self.guides.iter().map(|guide| guide.value);
         let frame = Frame {
-            x: Scale { low: 0.5, high: self.categories.len() as f64 + 0.5, ticks: 10 },
-            y: Scale::holding(values().chain(guides), true, 6)?.ok_or(FigureError::Empty)?,
+            x: Scale::categories(self.categories.len()),
+            y: Scale::holding(values().chain(guides), Zero::Always, 6)?.ok_or(FigureError::Empty)?,
             x_label: &self.labels.x,
             y_label: &self.labels.y,
             under: Under::Categories(&self.categories),
@@ -75,13 +80,23 @@ impl BarChart {
         let series = self.series.iter().enumerate();
         let mut entries: Vec<Entry> = series
             .map(|(index, series)| Entry {
-                sign: Sign::Box { color: style::series_color(index) },
+                sign: Sign::Box {
+                    color: style::series_color(index),
+                },
                 name: series.name.clone(),
             })
             .collect();
         let is_missing = |value: &Option<f64>| finite(*value).is_none();
-        if self.series.iter().flat_map(|series| &series.values).any(is_missing) {
-            entries.push(Entry { sign: Sign::Cross, name: "no result".to_owned() });
+        if self
+            .series
+            .iter()
+            .flat_map(|series| &series.values)
+            .any(is_missing)
+        {
+            entries.push(Entry {
+                sign: Sign::Cross,
+                name: "no result".to_owned(),
+            });
         }
         entries
     }
@@ -99,7 +114,12 @@ impl BarChart {
                     continue;
                 };
                 let end = plot.y(value);
-                let bar = Area { left, top: end.min(zero), right, bottom: end.max(zero) };
+                let bar = Area {
+                    left,
+                    top: end.min(zero),
+                    right,
+                    bottom: end.max(zero),
+                };
                 canvas.rect(bar, style::series_color(index), None);
             }
         }

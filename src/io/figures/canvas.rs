@@ -35,6 +35,22 @@ impl Area {
     pub(super) fn height(&self) -> f64 {
         self.bottom - self.top
     }
+
+    /// The area with `margin` added on every side.
+    pub(super) fn grown(&self, margin: f64) -> Self {
+        let Self {
+            left,
+            top,
+            right,
+            bottom,
+        } = *self;
+        Self {
+            left: left - margin,
+            top: top - margin,
+            right: right + margin,
+            bottom: bottom + margin,
+        }
+    }
 }
 
 /// A white sheet and what was drawn on it so far.
@@ -76,7 +92,13 @@ impl Canvas {
             Align::End => TextAnchor::End,
         };
         // Control characters are no XML, not even escaped; names come from files and may hold any.
-        let content = content.chars().map(|c| if c.is_control() || "\u{fffe}\u{ffff}".contains(c) { ' ' } else { c });
+        let content = content.chars().map(|c| {
+            if c.is_control() || "\u{fffe}\u{ffff}".contains(c) {
+                ' '
+            } else {
+                c
+            }
+        });
         self.scene.add(Primitive::Text {
             x,
             y,
@@ -89,7 +111,14 @@ impl Canvas {
         });
     }
 
-    pub(super) fn line(&mut self, from: (f64, f64), to: (f64, f64), color: &str, width: f64, dash: Option<&str>) {
+    pub(super) fn line(
+        &mut self,
+        from: (f64, f64),
+        to: (f64, f64),
+        color: &str,
+        width: f64,
+        dash: Option<&str>,
+    ) {
         self.scene.add(Primitive::Line {
             x1: from.0,
             y1: from.1,
@@ -128,7 +157,11 @@ impl Canvas {
             y: area.top,
             width: area.width(),
             height: area.height(),
-            fill: if color == "none" { Color::None } else { Color::from(color) },
+            fill: if color == "none" {
+                Color::None
+            } else {
+                Color::from(color)
+            },
             stroke: outline.map(|(color, _)| Color::from(color)),
             stroke_width: outline.map(|(_, width)| width),
             opacity: None,
@@ -149,8 +182,20 @@ impl Canvas {
 
     /// A small ×, the mark of a value that does not exist.
     pub(super) fn cross(&mut self, (x, y): (f64, f64), half: f64) {
-        self.line((x - half, y - half), (x + half, y + half), style::QUIET_INK, 1.6, None);
-        self.line((x - half, y + half), (x + half, y - half), style::QUIET_INK, 1.6, None);
+        self.line(
+            (x - half, y - half),
+            (x + half, y + half),
+            style::QUIET_INK,
+            1.6,
+            None,
+        );
+        self.line(
+            (x - half, y + half),
+            (x + half, y - half),
+            style::QUIET_INK,
+            1.6,
+            None,
+        );
     }
 
     /// Draws with everything outside of `area` cut off.

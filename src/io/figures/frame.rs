@@ -1,12 +1,12 @@
 //! The frame of a plot: axes, grid, labels, and guides with their texts beside the plot.
 
+use std::sync::Arc;
+
 use kuva::render::{
     axis::add_axes_and_grid,
-    layout::{ComputedLayout, Layout, TickFormat},
+    layout::{AxisLabelOverlap, ComputedLayout, Layout, TickFormat},
     theme::Theme,
 };
-
-use std::sync::Arc;
 
 use super::{
     FigureError, Guide,
@@ -75,32 +75,43 @@ impl Frame<'_> {
     /// The room left of the plot for numbers and the label.
     pub(super) fn left_room(&self) -> f64 {
         let labels = self.row_names().unwrap_or_else(|| self.y.tick_labels());
-        let widest = labels.iter().map(|label| text::width(label, TICK_SIZE)).fold(0.0, f64::max);
+        let widest = labels
+            .iter()
+            .map(|label| text::width(label, TICK_SIZE))
+            .fold(0.0, f64::max);
         PAGE_MARGIN + f64::from(LABEL_SIZE) * LEADING + 10.0 + widest + TICK_GAP
     }
 
     /// The room right of the plot for the labels of the guides.
     pub(super) fn right_room(&self) -> f64 {
         let lines = self.guides.iter().flat_map(|guide| guide_lines(&guide.label));
-        let widest = lines.map(|line| text::width(&line, LEGEND_SIZE)).fold(0.0, f64::max);
+        let widest = lines
+            .map(|line| text::width(&line, LEGEND_SIZE))
+            .fold(0.0, f64::max);
         let room = if widest > 0.0 { GUIDE_GAP + widest } else { 14.0 };
         PAGE_MARGIN + room.max(self.beside)
     }
 
     /// The room below the plot, within a plot `width` wide.
     pub(super) fn bottom_room(&self, width: f64) -> f64 {
-        let label = if self.x_label.is_empty() { 0.0 } else { f64::from(LABEL_SIZE) * LEADING + 8.0 };
+        let label = if self.x_label.is_empty() {
+            0.0
+        } else {
+            f64::from(LABEL_SIZE) * LEADING + 8.0
+        };
         match self.under {
             Under::Nothing => 0.0,
             Under::Numbers => PAGE_MARGIN + label + TICK_GAP + f64::from(TICK_SIZE),
-            Under::Categories(names) => PAGE_MARGIN + label + TICK_GAP + CategoryTexts::fit(names, width).height,
+            Under::Categories(names) => {
+                PAGE_MARGIN + label + TICK_GAP + CategoryTexts::fit(names, width).height
+            }
         }
     }
 
     /// Draws grid, axes, labels and guides into the sides given, and says where values lie.
     pub(super) fn draw(&self, canvas: &mut Canvas, area: Area) -> Result<Plot, FigureError> {
         if area.height() < 40.0 || area.width() < 80.0 {
-            return Err(FigureError::Raster("the texts leave no room for the plot".to_owned()));
+            return Err(FigureError::NoRoom);
         }
         let plot = self.axes(canvas, area);
         if let Under::Categories(names) = self.under {
@@ -113,7 +124,11 @@ impl Frame<'_> {
 
     /// The names along the y axis, each on one line.
     fn row_names(&self) -> Option<Vec<String>> {
-        self.rows.map(|rows| rows.iter().map(|name| text::shortened(name, TICK_SIZE, ROW_NAME_ROOM)).collect())
+        self.rows.map(|rows| {
+            rows.iter()
+                .map(|name| text::shortened(name, TICK_SIZE, ROW_NAME_ROOM))
+                .collect()
+        })
     }
 
     fn axes(&self, canvas: &mut Canvas, area: Area) -> Plot {
@@ -122,6 +137,7 @@ impl Frame<'_> {
             .with_height(style::HEIGHT)
             .with_tick_size(TICK_SIZE)
             .with_tick_length(6.0)
+            .with_x_label_overlap(AxisLabelOverlap::Thin)
             .with_x_tick_format(TickFormat::Custom(Arc::new(self.x.format())))
             .with_y_tick_format(TickFormat::Custom(Arc::new(self.y.format())))
             .with_theme(Theme {
@@ -144,8 +160,8 @@ impl Frame<'_> {
         computed.margin_right = style::WIDTH - area.right;
         computed.margin_top = area.top;
         computed.margin_bottom = style::HEIGHT - area.bottom;
-        (computed.x_range, computed.x_ticks) = ((self.x.low, self.x.high), self.x.ticks);
-        (computed.y_range, computed.y_ticks) = ((self.y.low, self.y.high), self.y.ticks);
+        (computed.x_range, computed.x_tick_step) = ((self.x.low, self.x.high), Some(self.x.step));
+        (computed.y_range, computed.y_tick_step) = ((self.y.low, self.y.high), Some(self.y.step));
         computed.recompute_transforms();
         add_axes_and_grid(&mut canvas.scene, &computed, &layout);
         Plot { area, computed }
@@ -158,8 +174,17 @@ impl Frame<'_> {
             let label = text::shortened(self.x_label, LABEL_SIZE, style::WIDTH - 2.0 * PAGE_MARGIN);
             // Long labels move away from the edge of the page rather than over it.
             let half = text::width(&label, LABEL_SIZE) / 2.0;
-            let x = middle.clamp(PAGE_MARGIN + half, (style::WIDTH - PAGE_MARGIN - half).max(PAGE_MARGIN + half));
-            canvas.text(&label, (x, style::HEIGHT - PAGE_MARGIN - 2.0), LABEL_SIZE, Align::Middle, INK);
+            let x = middle.clamp(
+                PAGE_MARGIN + half,
+                (style::WIDTH - PAGE_MARGIN - half).max(PAGE_MARGIN + half),
+            );
+            canvas.text(
+                &label,
+                (x, style::HEIGHT - PAGE_MARGIN - 2.0),
+                LABEL_SIZE,
+                Align::Middle,
+                INK,
+            );
         }
         let label = text::shortened(self.y_label, LABEL_SIZE, area.height() + 20.0);
         let position = (PAGE_MARGIN + size * 0.8, f64::midpoint(area.top, area.bottom));
@@ -180,25 +205,51 @@ impl Frame<'_> {
     /// Guides that lie in the range of the axis.
     fn shown_guides(&self) -> impl Iterator<Item = (usize, &Guide)> {
         let range = self.y.low..=self.y.high;
-        self.guides.iter().enumerate().filter(move |(_, guide)| range.contains(&guide.value))
+        self.guides
+            .iter()
+            .enumerate()
+            .filter(move |(_, guide)| range.contains(&guide.value))
     }
 
     /// Writes what each guide says to the right of its end, moved where texts would meet.
     fn guide_texts(&self, canvas: &mut Canvas, plot: &Plot) {
-        let Area { right, top, bottom, .. } = plot.area;
+        let Area {
+            right, top, bottom, ..
+        } = plot.area;
         let line_height = f64::from(LEGEND_SIZE) * LEADING;
-        let mut blocks: Vec<(f64, Vec<String>)> =
-            self.shown_guides().map(|(_, guide)| (plot.y(guide.value), guide_lines(&guide.label))).collect();
+        let mut blocks: Vec<(f64, Vec<String>)> = self
+            .shown_guides()
+            .map(|(_, guide)| (plot.y(guide.value), guide_lines(&guide.label)))
+            .collect();
         blocks.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let heights: Vec<f64> = blocks.iter().map(|(_, lines)| lines.len() as f64 * line_height + 4.0).collect();
-        let wanted: Vec<f64> = blocks.iter().zip(&heights).map(|((y, _), height)| y - height / 2.0).collect();
+        let heights: Vec<f64> = blocks
+            .iter()
+            .map(|(_, lines)| lines.len() as f64 * line_height + 4.0)
+            .collect();
+        let wanted: Vec<f64> = blocks
+            .iter()
+            .zip(&heights)
+            .map(|((y, _), height)| y - height / 2.0)
+            .collect();
         let tops = moved_apart(&wanted, &heights, top - 10.0, bottom + 10.0);
         for (((y, lines), block_top), height) in blocks.iter().zip(tops).zip(heights) {
             let middle = block_top + height / 2.0;
-            canvas.line((right, *y), (right + GUIDE_GAP - 4.0, middle), QUIET_INK, 1.0, None);
+            canvas.line(
+                (right, *y),
+                (right + GUIDE_GAP - 4.0, middle),
+                QUIET_INK,
+                1.0,
+                None,
+            );
             for (row, line) in lines.iter().enumerate() {
                 let baseline = block_top + 2.0 + (row as f64 + 0.78) * line_height;
-                canvas.text(line, (right + GUIDE_GAP, baseline), LEGEND_SIZE, Align::Start, INK);
+                canvas.text(
+                    line,
+                    (right + GUIDE_GAP, baseline),
+                    LEGEND_SIZE,
+                    Align::Start,
+                    INK,
+                );
             }
         }
     }
@@ -234,20 +285,35 @@ struct CategoryTexts {
 
 impl CategoryTexts {
     /// The longest that a turned name may get.
-    const LONGEST: f64 = 130.0;
+    const LONGEST: f64 = 150.0;
 
     fn fit(names: &[String], width: f64) -> Self {
         let slot = width / names.len().max(1) as f64;
-        let widest = names.iter().map(|name| text::width(name, TICK_SIZE)).fold(0.0, f64::max);
+        let widest = names
+            .iter()
+            .map(|name| text::width(name, TICK_SIZE))
+            .fold(0.0, f64::max);
         let line = f64::from(TICK_SIZE) * LEADING;
         if widest + 8.0 <= slot {
-            return Self { turned: false, height: f64::from(TICK_SIZE), every: 1 };
+            return Self {
+                turned: false,
+                height: f64::from(TICK_SIZE),
+                every: 1,
+            };
         }
         // Short names (numbers) thin out before they turn; long ones turn first.
         let short = widest <= 45.0;
         let needed = if short { widest + 8.0 } else { line };
         let every = (needed / slot).ceil().max(1.0) as usize;
-        Self { turned: !short, height: if short { f64::from(TICK_SIZE) } else { widest.min(Self::LONGEST) }, every }
+        Self {
+            turned: !short,
+            height: if short {
+                f64::from(TICK_SIZE)
+            } else {
+                widest.min(Self::LONGEST)
+            },
+            every,
+        }
     }
 
     fn draw(&self, canvas: &mut Canvas, names: &[String], plot: &Plot) {
@@ -259,14 +325,24 @@ impl CategoryTexts {
                 let position = (x + f64::from(TICK_SIZE) * 0.35, y);
                 canvas.turned_text(&name, position, TICK_SIZE, Align::End, INK, Some(-90.0));
             } else {
-                canvas.text(&name, (x, y + f64::from(TICK_SIZE) * 0.85), TICK_SIZE, Align::Middle, INK);
+                canvas.text(
+                    &name,
+                    (x, y + f64::from(TICK_SIZE) * 0.85),
+                    TICK_SIZE,
+                    Align::Middle,
+                    INK,
+                );
             }
         }
     }
 }
 
 /// Draws frames below each other, between `top` and the end of the page, their plots flush left and right.
-pub(super) fn draw_stack(canvas: &mut Canvas, frames: &[Frame<'_>], top: f64) -> Result<Vec<Plot>, FigureError> {
+pub(super) fn draw_stack(
+    canvas: &mut Canvas,
+    frames: &[Frame<'_>],
+    top: f64,
+) -> Result<Vec<Plot>, FigureError> {
     const BETWEEN: f64 = 30.0;
     let left = frames.iter().map(Frame::left_room).fold(0.0, f64::max);
     let right = style::WIDTH - frames.iter().map(Frame::right_room).fold(0.0, f64::max);
@@ -275,7 +351,15 @@ pub(super) fn draw_stack(canvas: &mut Canvas, frames: &[Frame<'_>], top: f64) ->
     let height = (style::HEIGHT - below - top - BETWEEN * (count - 1.0)) / count;
     let place = |(row, frame): (usize, &Frame<'_>)| {
         let top = top + row as f64 * (height + BETWEEN);
-        frame.draw(canvas, Area { left, top, right, bottom: top + height })
+        frame.draw(
+            canvas,
+            Area {
+                left,
+                top,
+                right,
+                bottom: top + height,
+            },
+        )
     };
     frames.iter().enumerate().map(place).collect()
 }

@@ -7,7 +7,7 @@ use super::{
     canvas::{Area, Canvas},
     frame::{Frame, Under, draw_stack},
     legend::draw_head,
-    scale::Scale,
+    scale::{Scale, Zero},
     style,
 };
 
@@ -28,7 +28,7 @@ const MOST_STEPS: f64 = 2000.0;
 impl Histogram {
     pub(super) fn draw(&self) -> Result<Canvas, FigureError> {
         let finite = || self.values.iter().copied().filter(|value| value.is_finite());
-        let x = Scale::holding(finite(), false, 10)?.ok_or(FigureError::Empty)?;
+        let x = Scale::holding(finite(), Zero::WhenNear, 10)?.ok_or(FigureError::Empty)?;
         let step = self.step.unwrap_or_else(|| compute_tick_step(x.low, x.high, 20));
         let steps = ((x.high - x.low) / step).ceil();
         // Written so that a step of NaN is refused as well.
@@ -44,7 +44,8 @@ impl Histogram {
         }
         let frame = Frame {
             x,
-            y: Scale::holding(counts.iter().map(|&count| count as f64), true, 5)?.ok_or(FigureError::Empty)?,
+            y: Scale::holding(counts.iter().map(|&count| count as f64), Zero::Always, 5)?
+                .ok_or(FigureError::Empty)?,
             x_label: &self.labels.x,
             y_label: &self.labels.y,
             under: Under::Numbers,
@@ -59,7 +60,12 @@ impl Histogram {
                 for (index, &count) in counts.iter().enumerate().filter(|(_, count)| **count > 0) {
                     let start = first + index as f64 * step;
                     let (left, top) = plot.at((start, count as f64));
-                    let bar = Area { left, top, right: plot.x(start + step), bottom: plot.y(0.0) };
+                    let bar = Area {
+                        left,
+                        top,
+                        right: plot.x(start + step),
+                        bottom: plot.y(0.0),
+                    };
                     canvas.rect(bar, style::series_color(0), Some(("#ffffff", 1.2)));
                 }
             });

@@ -9,10 +9,27 @@ use super::{
 /// The sign before a name in the legend.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Sign {
-    Line { color: &'static str, dash: Option<&'static str> },
-    Box { color: &'static str },
-    Dot { color: &'static str },
+    Line {
+        color: &'static str,
+        dash: Option<&'static str>,
+    },
+    Box {
+        color: &'static str,
+    },
+    Dot {
+        color: &'static str,
+    },
     Cross,
+}
+
+impl Sign {
+    fn width(self) -> f64 {
+        match self {
+            // Long enough to show the dashes.
+            Self::Line { .. } => 34.0,
+            Self::Box { .. } | Self::Dot { .. } | Self::Cross => 17.0,
+        }
+    }
 }
 
 /// A name and its sign.
@@ -22,7 +39,6 @@ pub(super) struct Entry {
     pub(super) name: String,
 }
 
-const SIGN_WIDTH: f64 = 34.0;
 const SIGN_GAP: f64 = 9.0;
 const ENTRY_GAP: f64 = 30.0;
 const ROW_HEIGHT: f64 = 27.0;
@@ -36,11 +52,11 @@ pub(super) fn draw_head(canvas: &mut Canvas, title: &str, entries: &[Entry]) -> 
         canvas.text(&line, (PAGE_MARGIN, y - 4.0), TITLE_SIZE, Align::Start, INK);
         y += 6.0;
     }
-    // A single series is named by the title and the axis; a legend of one would only repeat it.
     let mut x = PAGE_MARGIN;
     for (index, entry) in entries.iter().enumerate() {
-        let name = text::shortened(&entry.name, LEGEND_SIZE, room - SIGN_WIDTH - SIGN_GAP);
-        let width = SIGN_WIDTH + SIGN_GAP + text::width(&name, LEGEND_SIZE);
+        let sign_width = entry.sign.width();
+        let name = text::shortened(&entry.name, LEGEND_SIZE, room - sign_width - SIGN_GAP);
+        let width = sign_width + SIGN_GAP + text::width(&name, LEGEND_SIZE);
         if index == 0 {
             y += ROW_HEIGHT;
         } else if x + width > WIDTH - PAGE_MARGIN {
@@ -48,19 +64,30 @@ pub(super) fn draw_head(canvas: &mut Canvas, title: &str, entries: &[Entry]) -> 
             y += ROW_HEIGHT;
         }
         draw_sign(canvas, entry.sign, x, y - 6.0);
-        canvas.text(&name, (x + SIGN_WIDTH + SIGN_GAP, y), LEGEND_SIZE, Align::Start, INK);
+        canvas.text(
+            &name,
+            (x + sign_width + SIGN_GAP, y),
+            LEGEND_SIZE,
+            Align::Start,
+            INK,
+        );
         x += width + ENTRY_GAP;
     }
     y + 20.0
 }
 
 fn draw_sign(canvas: &mut Canvas, sign: Sign, x: f64, y: f64) {
-    let middle = x + SIGN_WIDTH / 2.0;
+    let middle = x + sign.width() / 2.0;
     match sign {
-        Sign::Line { color, dash } => canvas.line((x, y), (x + SIGN_WIDTH, y), color, 3.5, dash),
+        Sign::Line { color, dash } => canvas.line((x, y), (x + sign.width(), y), color, 3.5, dash),
         Sign::Box { color } => {
             let half = 8.0;
-            let area = Area { left: middle - half, top: y - half, right: middle + half, bottom: y + half };
+            let area = Area {
+                left: middle - half,
+                top: y - half,
+                right: middle + half,
+                bottom: y + half,
+            };
             canvas.rect(area, color, Some((QUIET_INK, 0.5)));
         }
         Sign::Dot { color } => canvas.dot((middle, y), 6.0, color, 1.0),

@@ -6,7 +6,7 @@ use super::{
     finite,
     frame::{Frame, Plot, Under, draw_stack},
     legend::{Entry, Sign, draw_head},
-    scale::Scale,
+    scale::{Scale, Zero},
     style,
 };
 
@@ -56,35 +56,52 @@ const MOST_DOTS: usize = 60;
 impl LineChart {
     /// A chart with all series and guides in one panel.
     pub fn new(labels: Labels, series: Vec<LineSeries>, guides: Vec<Guide>) -> Self {
-        Self { labels, panels: vec![LinePanel { series, guides, y_range: None }] }
+        Self {
+            labels,
+            panels: vec![LinePanel {
+                series,
+                guides,
+                y_range: None,
+            }],
+        }
     }
 
     /// The same chart with the series that lie far above the others in a panel of their own, where there are such.
     ///
-    /// Far is a factor of three or more between the medians of two series that follow each other in height. A guide goes to the
-    /// panel whose series are nearer. Charts that have several panels already stay as they are.
+    /// Far is a factor of two or more between the medians of two series that follow each other in height. A guide goes
+    /// to the panel whose series are nearer. Charts that have several panels already stay as they are.
     #[must_use]
     pub fn split_by_level(mut self) -> Self {
-        const FAR: f64 = 3.0;
-        let [panel] = self.panels.as_mut_slice() else { return self };
-        let mut levels: Vec<f64> = panel.series.iter().filter_map(LineSeries::median).collect();
-        levels.sort_by(f64::total_cmp);
-        let widest = (levels.windows(2).filter(|pair| pair[0] > 0.0).map(|pair| (pair[1] / pair[0], pair)))
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((ratio, &[below, above])) = widest.map(|(ratio, pair)| (ratio, pair)).and_then(as_two) else {
+        const FAR: f64 = 2.0;
+        let [panel] = self.panels.as_mut_slice() else {
             return self;
         };
-        if ratio < FAR {
+        let mut levels: Vec<f64> = panel.series.iter().filter_map(LineSeries::median).collect();
+        levels.sort_by(f64::total_cmp);
+        let gaps = levels
+            .iter()
+            .zip(levels.iter().skip(1))
+            .filter(|(below, _)| **below > 0.0);
+        let widest = gaps.max_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)));
+        let Some((below, above)) = widest.filter(|(below, above)| **above >= FAR * **below) else {
             return self;
-        }
+        };
         // Half-way on the scale of ratios.
         let border = (below * above).sqrt();
         let (high, low) = (panel.series.drain(..))
             .partition(|series: &LineSeries| series.median().is_some_and(|median| median > border));
         let (high_guides, low_guides) = panel.guides.drain(..).partition(|guide| guide.value > border);
         self.panels = vec![
-            LinePanel { series: high, guides: high_guides, y_range: None },
-            LinePanel { series: low, guides: low_guides, y_range: None },
+            LinePanel {
+                series: high,
+                guides: high_guides,
+                y_range: None,
+            },
+            LinePanel {
+                series: low,
+                guides: low_guides,
+                y_range: None,
+            },
         ];
         self
     }
@@ -102,7 +119,11 @@ impl LineChart {
                     y: panel.y_scale(tick_count)?,
                     x_label: &self.labels.x,
                     y_label: &self.labels.y,
-                    under: if index == last { Under::Numbers } else { Under::Nothing },
+                    under: if index == last {
+                        Under::Numbers
+                    } else {
+                        Under::Nothing
+                    },
                     rows: None,
                     guides: &panel.guides,
                     beside: 0.0,
@@ -111,9 +132,17 @@ impl LineChart {
             .collect::<Result<Vec<_>, FigureError>>()?;
 
         let mut canvas = Canvas::new();
-        let entries: Vec<Entry> = (all_series().enumerate())
-            .map(|(index, series)| Entry {
-                sign: Sign::Line { color: style::series_color(index), dash: style::series_dash(index) },
+        // Colors run through all panels, dashes start anew in each: there, few lines need them.
+        let in_panels = self
+            .panels
+            .iter()
+            .flat_map(|panel| panel.series.iter().enumerate());
+        let entries: Vec<Entry> = (in_panels.enumerate())
+            .map(|(index, (index_in_panel, series))| Entry {
+                sign: Sign::Line {
+                    color: style::series_color(index),
+                    dash: style::series_dash(index_in_panel),
+                },
                 name: series.name.clone(),
             })
             .collect();
@@ -122,16 +151,15 @@ impl LineChart {
         let mut first_index = 0;
         for ((panel, plot), frame) in self.panels.iter().zip(&plots).zip(&frames) {
             frame.draw_guides(&mut canvas, plot);
-            canvas.within(plot.area, |canvas| panel.draw(canvas, plot, first_index));
+            // Dots on the edge stay whole where nothing has to be cut off.
+            let bleed = if panel.y_range.is_some() { 0.0 } else { 5.0 };
+            canvas.within(plot.area.grown(bleed), |canvas| {
+                panel.draw(canvas, plot, first_index);
+            });
             first_index += panel.series.len();
         }
         Ok(canvas)
     }
-}
-
-/// A slice of two as an array, beside the ratio that it gave.
-fn as_two((ratio, pair): (f64, &[f64])) -> Option<(f64, &[f64; 2])> {
-    pair.try_into().ok().map(|pair| (ratio, pair))
 }
 
 impl LinePanel {
@@ -143,12 +171,16 @@ impl LinePanel {
         let reach = |(_, y, spread): (f64, f64, f64)| [(y - spread).max(floor), y + spread];
         let values = self.series.iter().flat_map(LineSeries::drawn).flat_map(reach);
         let guides = self.guides.iter().map(|guide| guide.value);
-        Scale::holding(values.chain(guides), false, tick_count)?.ok_or(FigureError::Empty)
+        Scale::holding(values.chain(guides), Zero::WhenNear, tick_count)?.ok_or(FigureError::Empty)
     }
 
     /// Where bands are cut off: below zero there is nothing to show of a quantity that is never negative.
     fn floor(&self) -> f64 {
-        let never_negative = self.series.iter().flat_map(LineSeries::drawn).all(|(_, y, _)| y >= 0.0);
+        let never_negative = self
+            .series
+            .iter()
+            .flat_map(LineSeries::drawn)
+            .all(|(_, y, _)| y >= 0.0);
         if never_negative { 0.0 } else { f64::NEG_INFINITY }
     }
 
@@ -158,7 +190,10 @@ impl LinePanel {
         for (index, series) in self.series.iter().enumerate() {
             for run in series.runs() {
                 let upper = run.iter().map(|&(x, y, spread)| plot.at((x, y + spread)));
-                let lower = run.iter().rev().map(|&(x, y, spread)| plot.at((x, (y - spread).max(floor))));
+                let lower = run
+                    .iter()
+                    .rev()
+                    .map(|&(x, y, spread)| plot.at((x, (y - spread).max(floor))));
                 if run.len() > 1 && run.iter().any(|&(.., spread)| spread > 0.0) {
                     let outline: Vec<_> = upper.chain(lower).collect();
                     canvas.polygon(&outline, style::series_color(first_index + index), 0.13);
@@ -171,7 +206,9 @@ impl LinePanel {
             for run in series.runs() {
                 let points: Vec<_> = run.iter().map(|&(x, y, _)| plot.at((x, y))).collect();
                 if with_dots || points.len() == 1 {
-                    points.iter().for_each(|&point| canvas.dot(point, 3.4, color, 1.0));
+                    for &point in &points {
+                        canvas.dot(point, 3.4, color, 1.0);
+                    }
                 }
                 // A lone point has no line to show its spread on: it gets a bar.
                 if let [(x, y, spread)] = run[..]
@@ -181,7 +218,7 @@ impl LinePanel {
                     canvas.line(low, high, color, 1.5, None);
                 }
                 if points.len() > 1 {
-                    canvas.polyline(points, color, 2.6, style::series_dash(first_index + index));
+                    canvas.polyline(points, color, 2.6, style::series_dash(index));
                 }
             }
         }
@@ -191,8 +228,14 @@ impl LinePanel {
 impl LineSeries {
     /// A series of values without a spread.
     pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = (f64, Option<f64>)>) -> Self {
-        let points = points.into_iter().map(|(x, y)| LinePoint { x, y, spread: None }).collect();
-        Self { name: name.into(), points }
+        let points = points
+            .into_iter()
+            .map(|(x, y)| LinePoint { x, y, spread: None })
+            .collect();
+        Self {
+            name: name.into(),
+            points,
+        }
     }
 
     /// Position, value and spread (0 where there is none) of the points that can be drawn.
@@ -203,7 +246,10 @@ impl LineSeries {
     /// The points that can be drawn, broken where one between them cannot.
     fn runs(&self) -> Vec<Vec<(f64, f64, f64)>> {
         let broken = self.points.split(|point| point.drawn().is_none());
-        broken.filter(|run| !run.is_empty()).map(|run| run.iter().filter_map(LinePoint::drawn).collect()).collect()
+        broken
+            .filter(|run| !run.is_empty())
+            .map(|run| run.iter().filter_map(LinePoint::drawn).collect())
+            .collect()
     }
 
     fn median(&self) -> Option<f64> {
@@ -216,6 +262,8 @@ impl LineSeries {
 impl LinePoint {
     fn drawn(&self) -> Option<(f64, f64, f64)> {
         let y = finite(self.y)?;
-        self.x.is_finite().then_some((self.x, y, finite(self.spread).map_or(0.0, f64::abs)))
+        self.x
+            .is_finite()
+            .then_some((self.x, y, finite(self.spread).map_or(0.0, f64::abs)))
     }
 }

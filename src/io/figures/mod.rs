@@ -52,6 +52,9 @@ pub enum FigureError {
     /// A scale that gives no picture, or one of more than 16,384 pixels a side.
     #[error("a PNG cannot be drawn at scale {0}")]
     Scale(f64),
+    /// So many series or so long names that they leave no room for the plot itself.
+    #[error("the legend and the labels leave no room for the plot")]
+    NoRoom,
     /// The picture could not be rasterized or encoded.
     #[error("the PNG could not be made: {0}")]
     Raster(String),
@@ -69,7 +72,10 @@ pub struct Guide {
 impl Guide {
     /// A guide at `value` that says `label`.
     pub fn new(value: f64, label: impl Into<String>) -> Self {
-        Self { value, label: label.into() }
+        Self {
+            value,
+            label: label.into(),
+        }
     }
 }
 
@@ -87,7 +93,11 @@ pub struct Labels {
 impl Labels {
     /// The three texts, in the order in which they are read.
     pub fn new(title: impl Into<String>, x: impl Into<String>, y: impl Into<String>) -> Self {
-        Self { title: title.into(), x: x.into(), y: y.into() }
+        Self {
+            title: title.into(),
+            x: x.into(),
+            y: y.into(),
+        }
     }
 }
 
@@ -110,7 +120,7 @@ impl Figure {
     /// The figure as an SVG document of [`WIDTH`] × [`HEIGHT`] units. Its texts stay texts.
     ///
     /// # Errors
-    /// Where nothing can be drawn: no finite value, lists of different lengths, values beyond any axis.
+    /// Where nothing can be drawn: no finite value, lists of different lengths, values beyond any axis, too many series.
     pub fn svg(&self) -> Result<String, FigureError> {
         let canvas = match self {
             Self::Lines(chart) => chart.draw(),
@@ -140,7 +150,13 @@ macro_rules! figure_from {
         })*
     };
 }
-figure_from!(Lines(LineChart), Bars(BarChart), Histogram(Histogram), Scatter(Scatter), Heatmap(Heatmap));
+figure_from!(
+    Lines(LineChart),
+    Bars(BarChart),
+    Histogram(Histogram),
+    Scatter(Scatter),
+    Heatmap(Heatmap)
+);
 
 /// A value that exists and is finite.
 fn finite(value: Option<f64>) -> Option<f64> {

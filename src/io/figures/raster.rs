@@ -24,7 +24,10 @@ pub(super) fn png_from_svg(svg: &str, scale: f64) -> Result<Vec<u8>, FigureError
     if !(width_px >= 1.0 && height_px >= 1.0 && width_px <= MAX_SIDE_PX && height_px <= MAX_SIDE_PX) {
         return Err(FigureError::Scale(scale));
     }
-    let options = usvg::Options { fontdb: Arc::clone(&FONTS), ..usvg::Options::default() };
+    let options = usvg::Options {
+        fontdb: Arc::clone(&FONTS),
+        ..usvg::Options::default()
+    };
     let tree = usvg::Tree::from_str(svg, &options).map_err(|error| FigureError::Raster(error.to_string()))?;
     let mut pixmap =
         tiny_skia::Pixmap::new(width_px as u32, height_px as u32).ok_or(FigureError::Scale(scale))?;
@@ -35,5 +38,7 @@ pub(super) fn png_from_svg(svg: &str, scale: f64) -> Result<Vec<u8>, FigureError
         (height_px / style::HEIGHT) as f32,
     );
     resvg::render(&tree, transform, &mut pixmap.as_mut());
-    pixmap.encode_png().map_err(|error| FigureError::Raster(error.to_string()))
+    pixmap
+        .encode_png()
+        .map_err(|error| FigureError::Raster(error.to_string()))
 }

@@ -1,6 +1,6 @@
 //! Ranges of axes, and how their numbers are written.
 
-use kuva::render::render_utils::{compute_tick_step, generate_ticks};
+use kuva::render::render_utils::{compute_tick_step, generate_ticks_with_step};
 
 use super::FigureError;
 
@@ -9,26 +9,37 @@ const LARGEST: f64 = 1e100;
 /// The axis code treats spans below the epsilon of f64 as empty; this keeps well above it.
 const SMALLEST_SPAN: f64 = 1e-14;
 
-/// An axis: where it starts and ends, and how many ticks to aim at.
+/// An axis: where it starts and ends, and how far its ticks lie apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     pub(super) low: f64,
     pub(super) high: f64,
-    pub(super) ticks: usize,
+    pub(super) step: f64,
+}
+
+/// Whether an axis takes in zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Zero {
+    /// Always: heights of bars are compared from there.
+    Always,
+    /// Where positive values reach down to less than half of the largest: their ratios can then be read from heights.
+    WhenNear,
+    /// Only where values lie on both sides of it.
+    Never,
 }
 
 impl Scale {
-    /// A scale that holds every value, from tick to tick; `None` where there is no value.
-    ///
-    /// With `from_zero` it holds zero, too. Otherwise zero is taken in where the values are positive and reach down
-    /// to less than half of the largest: ratios can then be read from heights.
+    /// A scale of about `ticks` steps that holds every value, from tick to tick; `None` where there is no value.
     pub(super) fn holding(
         values: impl IntoIterator<Item = f64>,
-        from_zero: bool,
+        zero: Zero,
         ticks: usize,
     ) -> Result<Option<Self>, FigureError> {
-        let Some((mut low, mut high)) = extent(values)? else { return Ok(None) };
-        if from_zero || (low > 0.0 && low < 0.5 * high) {
+        let Some((mut low, mut high)) = extent(values)? else {
+            return Ok(None);
+        };
+        let near = zero == Zero::WhenNear && low > 0.0 && low < 0.5 * high;
+        if near || zero == Zero::Always {
             low = low.min(0.0);
             high = high.max(0.0);
         }
@@ -37,21 +48,52 @@ impl Scale {
         // A value on a tick counts as within it despite the rounding of the division.
         let low_tick = (low / step + 1e-9).floor() * step;
         let high_tick = (high / step - 1e-9).ceil() * step;
-        Ok(Some(Self { low: low_tick, high: high_tick, ticks }))
+        Ok(Some(Self {
+            low: low_tick,
+            high: high_tick,
+            step,
+        }))
     }
 
     /// A scale that ends just beyond the first and the last value, whether there is a tick or not.
-    pub(super) fn around(values: impl IntoIterator<Item = f64>, ticks: usize) -> Result<Option<Self>, FigureError> {
-        let Some((low, high)) = extent(values)? else { return Ok(None) };
+    pub(super) fn around(
+        values: impl IntoIterator<Item = f64>,
+        ticks: usize,
+    ) -> Result<Option<Self>, FigureError> {
+        let Some((low, high)) = extent(values)? else {
+            return Ok(None);
+        };
         let (low, high) = widened(low, high);
         let margin = 0.02 * (high - low);
-        Ok(Some(Self { low: low - margin, high: high + margin, ticks }))
+        let step = compute_tick_step(low, high, ticks);
+        Ok(Some(Self {
+            low: low - margin,
+            high: high + margin,
+            step,
+        }))
     }
 
     /// The scale that the caller asked for.
     pub(super) fn given(low: f64, high: f64, ticks: usize) -> Result<Self, FigureError> {
         let good = low.abs() <= LARGEST && high.abs() <= LARGEST && high - low >= widest_nothing(low, high);
-        if good { Ok(Self { low, high, ticks }) } else { Err(FigureError::Range(low, high)) }
+        if good {
+            Ok(Self {
+                low,
+                high,
+                step: compute_tick_step(low, high, ticks),
+            })
+        } else {
+            Err(FigureError::Range(low, high))
+        }
+    }
+
+    /// A scale of categories, which lie at 1, 2, 3 …
+    pub(super) fn categories(count: usize) -> Self {
+        Self {
+            low: 0.5,
+            high: count as f64 + 0.5,
+            step: 1.0,
+        }
     }
 
     /// The texts at its ticks.
@@ -62,12 +104,15 @@ impl Scale {
     /// Its ticks, and their texts.
     pub(super) fn labeled_ticks(self) -> Vec<(f64, String)> {
         let write = self.format();
-        generate_ticks(self.low, self.high, self.ticks).into_iter().map(|tick| (tick, write(tick))).collect()
+        generate_ticks_with_step(self.low, self.high, self.step)
+            .into_iter()
+            .map(|tick| (tick, write(tick)))
+            .collect()
     }
 
     /// A function that writes the numbers of this axis, all with as many digits as its step needs.
     pub(super) fn format(self) -> impl Fn(f64) -> String + Send + Sync + 'static {
-        let step = compute_tick_step(self.low, self.high, self.ticks);
+        let step = self.step;
         let largest = self.low.abs().max(self.high.abs());
         let exponent = largest.log10().floor();
         let significant = exponent - step.log10().floor();
@@ -145,6 +190,10 @@ fn widened(low: f64, high: f64) -> (f64, f64) {
         return (low, high);
     }
     let middle = f64::midpoint(low, high);
-    let half = if middle.abs() < SMALLEST_SPAN { 0.5 } else { 0.1 * middle.abs() };
+    let half = if middle.abs() < SMALLEST_SPAN {
+        0.5
+    } else {
+        0.1 * middle.abs()
+    };
     (middle - half, middle + half)
 }

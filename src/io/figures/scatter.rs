@@ -5,7 +5,7 @@ use super::{
     canvas::Canvas,
     frame::{Frame, Under, draw_stack},
     legend::{Entry, Sign, draw_head},
-    scale::Scale,
+    scale::{Scale, Zero},
     style,
 };
 
@@ -32,7 +32,11 @@ pub struct Scatter {
 impl Scatter {
     pub(super) fn draw(&self) -> Result<Canvas, FigureError> {
         let drawn = |series: &ScatterSeries| {
-            let points = series.points.iter().copied().filter(|(x, y)| x.is_finite() && y.is_finite());
+            let points = series
+                .points
+                .iter()
+                .copied()
+                .filter(|(x, y)| x.is_finite() && y.is_finite());
             points.collect::<Vec<_>>()
         };
         let drawn: Vec<Vec<(f64, f64)>> = self.series.iter().map(drawn).collect();
@@ -42,8 +46,9 @@ impl Scatter {
         }
         let guides = self.guides.iter().map(|guide| guide.value);
         let frame = Frame {
-            x: Scale::holding(points().map(|point| point.0), false, 8)?.ok_or(FigureError::Empty)?,
-            y: Scale::holding(points().map(|point| point.1).chain(guides), false, 6)?.ok_or(FigureError::Empty)?,
+            x: Scale::holding(points().map(|point| point.0), Zero::WhenNear, 8)?.ok_or(FigureError::Empty)?,
+            y: Scale::holding(points().map(|point| point.1).chain(guides), Zero::WhenNear, 6)?
+                .ok_or(FigureError::Empty)?,
             x_label: &self.labels.x,
             y_label: &self.labels.y,
             under: Under::Numbers,
@@ -53,7 +58,9 @@ impl Scatter {
         };
         let entries: Vec<Entry> = (self.series.iter().enumerate())
             .map(|(index, series)| Entry {
-                sign: Sign::Dot { color: style::series_color(index) },
+                sign: Sign::Dot {
+                    color: style::series_color(index),
+                },
                 name: series.name.clone(),
             })
             .collect();

@@ -22,7 +22,9 @@ pub(super) const MISSING: &str = "#d9d9d9";
 
 /// The colors of Okabe and Ito, told apart with every kind of color vision, in an order that keeps neighbors apart.
 /// Their yellow is too faint for a line on white; a gray stands in for it.
-const PALETTE: [&str; 8] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#8C8C8C"];
+const PALETTE: [&str; 8] = [
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#8C8C8C",
+];
 
 /// The color of the series at `index`; colors repeat after eight.
 pub(super) fn series_color(index: usize) -> &'static str {

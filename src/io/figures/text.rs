@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use ttf_parser::Face;
 
-/// DejaVu Sans: it has the degree sign, Greek, subscripts and the arrows that captions use.
+/// `DejaVu Sans`: it has the degree sign, Greek, subscripts and the arrows that captions use.
 pub(super) const FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");
 
 /// What an SVG asks for. Verdana has the same widths, the others are narrower: what fits here fits there.
@@ -18,7 +18,11 @@ pub(super) fn width(text: &str, size: u32) -> f64 {
     let Some(face) = FACE.as_ref() else {
         return text.chars().count() as f64 * 0.65 * size;
     };
-    let advance = |c: char| face.glyph_index(c).and_then(|glyph| face.glyph_hor_advance(glyph)).unwrap_or(1400);
+    let advance = |c: char| {
+        face.glyph_index(c)
+            .and_then(|glyph| face.glyph_hor_advance(glyph))
+            .unwrap_or(1400)
+    };
     let units: f64 = text.chars().map(|c| f64::from(advance(c))).sum();
     units * size / f64::from(face.units_per_em())
 }
