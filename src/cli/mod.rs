@@ -3,6 +3,7 @@
 mod analyze;
 mod options;
 mod progress;
+mod reproduce;
 mod simulate;
 
 use std::io::Write;
@@ -36,6 +37,8 @@ enum Command {
     Analyze(analyze::Analyze),
     /// Make clouds whose axis is known
     Simulate(simulate::Simulate),
+    /// Run the paper's experiments and set them beside the paper's figures
+    Reproduce(reproduce::Reproduce),
     /// Print a completion script for a shell
     Completions {
         /// The shell that will read it
@@ -70,6 +73,7 @@ fn run(cli: Cli) -> anyhow::Result<()> {
     match cli.command {
         Command::Analyze(analyze) => analyze::run(&analyze),
         Command::Simulate(simulate) => simulate::run(&simulate),
+        Command::Reproduce(reproduce) => reproduce::run(&reproduce),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "axiscope", &mut script);

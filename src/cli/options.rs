@@ -204,7 +204,7 @@ impl AnalysisOptions {
     }
 }
 
-fn grid_size(text: &str) -> Result<usize, String> {
+pub(super) fn grid_size(text: &str) -> Result<usize, String> {
     let u = text.parse::<usize>().map_err(|_| "expected a whole number")?;
     CandidateGrid::new(u)
         .map(CandidateGrid::u)
@@ -283,4 +283,24 @@ fn hue_range(text: &str) -> Result<HueRange, String> {
         from_deg: degrees(from)?,
         to_deg: degrees(to)?,
     })
+}
+
+/// Depths to simulate at, in cm, ascending.
+#[derive(Debug, Clone)]
+pub(super) struct Depths(pub(super) Vec<f64>);
+
+pub(super) fn depths(text: &str) -> Result<Depths, String> {
+    let Some((from, rest)) = text.split_once("..") else {
+        return Ok(Depths(vec![number(text)?]));
+    };
+    let (to, step) = rest.split_once(':').unwrap_or((rest, "1"));
+    let (from, to, step) = (number(from)?, number(to)?, positive(step)?);
+    // A thousandth of a step forgives the rounding of the last one.
+    let steps = ((to - from) / step + 1e-3).floor();
+    if !(0.0..10_000.0).contains(&steps) {
+        return Err("expected FROM..TO[:STEP] with FROM below TO".into());
+    }
+    Ok(Depths(
+        (0..=steps as usize).map(|i| from + i as f64 * step).collect(),
+    ))
 }

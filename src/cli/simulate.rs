@@ -12,7 +12,7 @@ use axiscope::simulate::{
 use clap::{Args, Subcommand, ValueEnum};
 use glam::DVec3;
 
-use super::options::{number, position, positive};
+use super::options::{Depths, depths, number, position};
 use super::{progress, usage_error};
 
 #[derive(Debug, Args)]
@@ -34,7 +34,7 @@ enum Shape {
 #[command(next_help_heading = "Output")]
 struct Output {
     /// The PLY file to write, or a folder for several; the truth goes beside it as NAME.truth.json
-    /// [default: the shape's name]
+    ///
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
     /// How many clouds, each with a seed of its own that follows from --seed
@@ -81,7 +81,7 @@ struct Ellipsoid {
     center_cm: [f64; 2],
     /// The center's depth in cm, or a range FROM..TO[:STEP]: the paper's is 25..70:1
     #[arg(long, value_name = "Z", default_value = "25", value_parser = depths, allow_hyphen_values = true)]
-    z0_cm: Depths,
+    z0: Depths,
     /// Visible points; the paper does not tell
     #[arg(long, value_name = "N", default_value_t = 3000)]
     points: usize,
@@ -89,10 +89,6 @@ struct Ellipsoid {
     #[arg(long, value_name = "CM", default_value_t = 0.0, value_parser = number, allow_hyphen_values = true)]
     noise_cm: f64,
 }
-
-/// Depths to simulate at, in cm, ascending.
-#[derive(Debug, Clone)]
-struct Depths(Vec<f64>);
 
 /// What is not set is drawn by the seed.
 #[derive(Debug, Args)]
@@ -205,9 +201,9 @@ fn ellipsoids(args: &Ellipsoid) -> anyhow::Result<()> {
     };
     let seeds = seeds(args.output.seed, args.output.count as usize);
     let mut jobs = Vec::new();
-    for &z0 in &args.z0_cm.0 {
+    for &z0 in &args.z0.0 {
         // Several depths tell their clouds apart by it: ellipsoid_z025.0_000.
-        let depth = if args.z0_cm.0.len() > 1 {
+        let depth = if args.z0.0.len() > 1 {
             format!("_z{z0:05.1}")
         } else {
             String::new()
@@ -421,20 +417,4 @@ fn pair(text: &str) -> Result<[f64; 2], String> {
         .split_once(',')
         .ok_or("expected two numbers with a comma between them")?;
     Ok([number(a)?, number(b)?])
-}
-
-fn depths(text: &str) -> Result<Depths, String> {
-    let Some((from, rest)) = text.split_once("..") else {
-        return Ok(Depths(vec![number(text)?]));
-    };
-    let (to, step) = rest.split_once(':').unwrap_or((rest, "1"));
-    let (from, to, step) = (number(from)?, number(to)?, positive(step)?);
-    // A thousandth of a step forgives the rounding of the last one.
-    let steps = ((to - from) / step + 1e-3).floor();
-    if !(0.0..10_000.0).contains(&steps) {
-        return Err("expected FROM..TO[:STEP] with FROM below TO".into());
-    }
-    Ok(Depths(
-        (0..=steps as usize).map(|i| from + i as f64 * step).collect(),
-    ))
 }

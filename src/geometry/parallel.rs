@@ -13,7 +13,13 @@ use super::{Cancelled, Watch};
 
 /// Cuts `0..len` into ranges of `piece` (the last may be shorter), runs `work` on each, and returns
 /// the results in the order of the ranges.
-pub(crate) fn map_pieces<T: Send>(
+///
+/// # Errors
+/// [`Cancelled`] when the watch calls the work off.
+///
+/// # Panics
+/// Where `piece` is zero.
+pub fn map_pieces<T: Send>(
     len: usize,
     piece: usize,
     watch: &dyn Watch,

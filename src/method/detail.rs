@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Surface;
 use super::terms::partner_of;
-use crate::geometry::parallel::map_pieces;
+use crate::geometry::map_pieces;
 use crate::geometry::{Cancelled, Neighbors, Plane, Unit, Watch};
 
 /// Which side of a plane a point lies on.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{CandidateGrid, Surface, has_visible_partner};
-use crate::geometry::parallel::map_pieces;
+use crate::geometry::map_pieces;
 use crate::geometry::{Cancelled, Neighbors, Plane, Unit, Watch, angle_between_directions_rad};
 
 /// The sums over one plane's points that have a visible partner. The score for any τ and any

@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::geometry::parallel::map_pieces;
+use crate::geometry::map_pieces;
 use crate::geometry::{Cancelled, Spread, Watch};
 
 /// The random points that the center is picked from: normally distributed about the cloud's mean.

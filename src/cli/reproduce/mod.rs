@@ -1,0 +1,120 @@
+//! `axiscope reproduce`: the paper's experiments (§ 3) beside the paper's figures.
+
+mod ellipsoids;
+mod figures;
+mod peppers;
+mod readings;
+mod report;
+mod tables;
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use anyhow::Context;
+use axiscope::geometry::Watch;
+use clap::Args;
+use indicatif::ProgressBar;
+
+use super::options::{Depths, depths, grid_size};
+use super::progress;
+
+#[derive(Debug, Args)]
+pub(super) struct Reproduce {
+    /// The folder for the report, its tables and its figures
+    #[arg(short, long, value_name = "DIR", default_value = "reproduction")]
+    out: PathBuf,
+    /// Depths of the ellipsoid in cm, as FROM..TO[:STEP]
+    #[arg(long, value_name = "Z", default_value = "25..70:1", value_parser = depths)]
+    z0: Depths,
+    /// Runs at each depth, each with random points of its own
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    runs: u32,
+    /// Visible points of an ellipsoid; the paper does not tell
+    #[arg(long, value_name = "N", default_value_t = 1500)]
+    points: usize,
+    /// Simulated peppers, each with and without its peduncle; 0 leaves § 3.2 out
+    #[arg(long, value_name = "N", default_value_t = 27, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    peppers: u32,
+    /// Steps of the candidate grid along each angle
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = grid_size)]
+    u: usize,
+    /// Seed of everything random
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+}
+
+pub(super) fn run(args: &Reproduce) -> anyhow::Result<()> {
+    std::fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
+
+    let watch = Bar::new("§ 3.1, ellipsoids", args.z0.0.len() * args.runs as usize);
+    let settings = ellipsoids::Settings {
+        depths_cm: &args.z0.0,
+        runs: args.runs as usize,
+        points: args.points,
+        u: args.u,
+        seed: args.seed,
+    };
+    let ellipsoids = ellipsoids::run(&settings, &watch)?;
+    watch.finish();
+
+    let watch = Bar::new("§ 3.2, peppers", args.peppers as usize);
+    let peppers = peppers::run(args.peppers as usize, args.u, args.seed, &watch)?;
+    watch.finish();
+
+    let text = report::markdown(&settings, &ellipsoids, &peppers)?;
+    let save = |name: &str, bytes: &[u8]| {
+        let path = args.out.join(name);
+        std::fs::write(&path, bytes).with_context(|| path.display().to_string())
+    };
+    save("report.md", text.as_bytes())?;
+    save("ellipsoids.csv", &tables::ellipsoids(&ellipsoids)?)?;
+    let mut figures = vec![("fig8", figures::error_per_depth(&ellipsoids))];
+    if !peppers.is_empty() {
+        save("peppers.csv", &tables::peppers(&peppers)?)?;
+        figures.push(("fig12", figures::error_per_pepper(&peppers, true)));
+        figures.push(("fig13", figures::error_per_pepper(&peppers, false)));
+    }
+    for (name, figure) in figures {
+        save(&format!("{name}.svg"), figure.svg()?.as_bytes())?;
+        save(&format!("{name}.png"), &figure.png(1.0)?)?;
+    }
+    std::io::stdout().lock().write_all(text.as_bytes())?;
+    eprintln!(
+        "Wrote the report, its tables and its figures to {}.",
+        args.out.display()
+    );
+    Ok(())
+}
+
+/// A progress bar that counts finished pieces, in whatever order they finish.
+struct Bar {
+    bar: ProgressBar,
+    furthest: Mutex<usize>,
+}
+
+impl Bar {
+    fn new(what: &str, total: usize) -> Self {
+        let bar = progress::bar(&format!("{what} {{wide_bar}} {{pos}}/{{len}}, {{eta}} left"));
+        bar.set_length(total as u64);
+        Self {
+            bar,
+            furthest: Mutex::default(),
+        }
+    }
+
+    fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Watch for Bar {
+    fn advanced(&self, done: usize, _total: usize) {
+        if let Ok(mut furthest) = self.furthest.lock()
+            && done > *furthest
+        {
+            *furthest = done;
+            self.bar.set_position(done as u64);
+        }
+    }
+}
