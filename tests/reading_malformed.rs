@@ -18,11 +18,19 @@ fn binary(elements: &str, body: &[u8]) -> Vec<u8> {
 
 const BYTES: &str = "property uchar x\nproperty uchar y\nproperty uchar z";
 
+/// Each file is refused with a message that contains what stands beside it.
+fn refused(cases: Vec<(Vec<u8>, &str)>) {
+    for (file, expected) in cases {
+        let error = read(&file).expect_err(expected);
+        let shown = error.to_string();
+        assert!(shown.contains(expected), "{shown:?} has no {expected:?}");
+        assert_eq!(shown.lines().count(), 1, "{shown:?}");
+    }
+}
+
 #[test]
-fn malformed_files_are_refused_with_the_place_and_the_cause() {
-    let with_list = format!("element vertex 2\n{BYTES}\nproperty list char float extra");
-    let camera = format!("element camera 3\nproperty list int double k\nelement vertex 1\n{BYTES}");
-    let cases: Vec<(Vec<u8>, &str)> = vec![
+fn what_is_no_ply_file_is_refused() {
+    refused(vec![
         (vec![], "line 1: the file is empty"),
         (b" \n\n".to_vec(), "line 1: the file is empty"),
         (b"plywood\n".to_vec(), "line 1: this is not a PLY file"),
@@ -37,6 +45,12 @@ fn malformed_files_are_refused_with_the_place_and_the_cause() {
             [b"ply\nformat ascii 1.0\n".to_vec(), vec![b'x'; 3 << 20]].concat(),
             "line 2: the header has no \"end_header\" line within the first 1048576 bytes",
         ),
+    ]);
+}
+
+#[test]
+fn malformed_headers_are_refused_with_their_line() {
+    refused(vec![
         (
             changed("format ascii 1.0\n", ""),
             "line 6: the header has no \"format\" line",
@@ -68,14 +82,6 @@ fn malformed_files_are_refused_with_the_place_and_the_cause() {
         (
             changed("vertex 2", "vertex 99999999999999999999"),
             "line 3: the count \"99999999999999999999\"",
-        ),
-        (
-            changed("vertex 2", "vertex 3"),
-            "line 10: the file ends after 2 of 3 rows of element \"vertex\"",
-        ),
-        (
-            changed("vertex 2", "vertex 18446744073709551615"),
-            "line 10: the file ends after 2 of 18446744073709551615 rows",
         ),
         (
             changed("vertex 2", "points 2"),
@@ -125,6 +131,20 @@ fn malformed_files_are_refused_with_the_place_and_the_cause() {
             ),
             "line 9: property \"a\" was declared on line 8",
         ),
+    ]);
+}
+
+#[test]
+fn malformed_rows_are_refused_with_their_line() {
+    refused(vec![
+        (
+            changed("vertex 2", "vertex 3"),
+            "line 10: the file ends after 2 of 3 rows of element \"vertex\"",
+        ),
+        (
+            changed("vertex 2", "vertex 18446744073709551615"),
+            "line 10: the file ends after 2 of 18446744073709551615 rows",
+        ),
         (changed("4 5 6", "4 5"), "line 9: 2 numbers where 3 are expected"),
         (
             changed("4 5 6", "4 5 6 7"),
@@ -166,6 +186,14 @@ fn malformed_files_are_refused_with_the_place_and_the_cause() {
             ),
             "line 9: 5 numbers where at least 4 are expected",
         ),
+    ]);
+}
+
+#[test]
+fn malformed_binary_is_refused_with_its_byte() {
+    let with_list = format!("element vertex 2\n{BYTES}\nproperty list char float extra");
+    let camera = format!("element camera 3\nproperty list int double k\nelement vertex 1\n{BYTES}");
+    refused(vec![
         (
             binary(&format!("element vertex 3\n{BYTES}"), &[0; 8]),
             "byte 123: the file ends after 2 of 3 rows of element \"vertex\"",
@@ -195,13 +223,7 @@ fn malformed_files_are_refused_with_the_place_and_the_cause() {
             binary(&camera, &[0, 0, 0, 0x80]),
             "byte 159: a list of -2147483648 items",
         ),
-    ];
-    for (file, expected) in cases {
-        let error = read(&file).expect_err(expected);
-        let shown = error.to_string();
-        assert!(shown.contains(expected), "{shown:?} has no {expected:?}");
-        assert_eq!(shown.lines().count(), 1, "{shown:?}");
-    }
+    ]);
 }
 
 #[test]
