@@ -31,10 +31,10 @@ fn refused(cases: Vec<(Vec<u8>, &str)>) {
 #[test]
 fn what_is_no_ply_file_is_refused() {
     refused(vec![
-        (vec![], "line 1: the file is empty"),
-        (b" \n\n".to_vec(), "line 1: the file is empty"),
-        (b"plywood\n".to_vec(), "line 1: this is not a PLY file"),
-        (b"\x89PNG\r\n\x1a\n".to_vec(), "line 1: this is not a PLY file"),
+        (vec![], "the file is empty"),
+        (b" \n\n".to_vec(), "the file is empty"),
+        (b"plywood\n".to_vec(), "this is not a PLY file"),
+        (b"\x89PNG\r\n\x1a\n".to_vec(), "this is not a PLY file"),
         (b"\xff\xfep\0l\0y\0\n\0".to_vec(), "not a PLY file but UTF-16"),
         (b"\x1f\x8b\x08\0\0\0".to_vec(), "not a PLY file but gzip"),
         (
@@ -46,6 +46,15 @@ fn what_is_no_ply_file_is_refused() {
             "line 2: the header has no \"end_header\" line within the first 1048576 bytes",
         ),
     ]);
+}
+
+#[test]
+fn a_header_without_end_is_not_searched_for_ever() {
+    let long = format!("{}element", "comment and so on\n".repeat(1 << 16));
+    refused(vec![(
+        changed("element", &long),
+        "the header has no \"end_header\" line within the first 1048576 bytes",
+    )]);
 }
 
 #[test]
@@ -272,7 +281,7 @@ fn files_that_cannot_be_read_are_named_with_the_cause() {
     let cases = [
         (path("missing.ply"), "missing.ply: there is no such file"),
         (folder.path().to_owned(), ": this is a folder, not a file"),
-        (path("empty.ply"), "empty.ply: line 1: the file is empty"),
+        (path("empty.ply"), "empty.ply: the file is empty"),
         (path("bad.ply"), "bad.ply: line 9: \"five\" is not a number"),
         ("two\nlines.ply".into(), "two\\nlines.ply: there is no such file"),
     ];

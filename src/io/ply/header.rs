@@ -72,11 +72,11 @@ impl Header {
             match lines.next() {
                 Some(line) if line.trim_ascii().is_empty() => {}
                 Some(line) => break line.trim_ascii(),
-                None => return Err(PlyError::at_line(1, Problem::Empty)),
+                None => return Err(PlyError::of_file(Problem::Empty)),
             }
         };
         if !first.eq_ignore_ascii_case(b"ply") {
-            return Err(PlyError::at_line(lines.line, other_format(bytes)));
+            return Err(PlyError::of_file(other_format(bytes)));
         }
         let mut draft = Draft::default();
         while let Some(line) = lines.next() {
