@@ -195,8 +195,8 @@ fn colors_are_brought_to_bytes_from_the_scale_they_are_on() {
             .to_vec()
     };
     assert_eq!(
-        colors("float", "0 0.5 1 1\n0.2 0 0 0"),
-        [[0, 128, 255, 255], [51, 0, 0, 0]]
+        colors("float", "0 0.5 1 1\n0.2 0.75 0 0"),
+        [[0, 128, 255, 255], [51, 191, 0, 0]]
     );
     assert_eq!(
         colors("float", "0 0.5 255 1\n300 -4 nan 0"),
