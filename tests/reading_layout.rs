@@ -3,7 +3,7 @@
 mod ply_text;
 
 use axiscope::geometry::Unit;
-use axiscope::io::ply::{Note, read};
+use axiscope::io::ply::{Note, Place, read};
 use glam::DVec3;
 
 use ply_text::{XYZ, ascii, vertex};
@@ -151,6 +151,24 @@ fn numbers_in_sequence_are_read_where_rows_wrap() {
             read.notes
         );
     }
+}
+
+#[test]
+fn a_late_wrapped_row_does_not_spoil_those_before_it() {
+    let rows = 1000;
+    let mut lines: Vec<String> = (0..rows).map(|row| format!("{row} 0 1")).collect();
+    lines[rows - 2] = "998\n0 1".into();
+    let read = ascii(&vertex(rows, XYZ), &lines.join("\n"));
+    let expected: Vec<DVec3> = (0..1000)
+        .map(|row| DVec3::new(f64::from(row), 0.0, 1.0))
+        .collect();
+    assert_eq!(read.cloud.positions(), expected);
+    assert_eq!(
+        read.notes,
+        [Note::RowsWrap {
+            place: Place::Line(1006)
+        }]
+    );
 }
 
 #[test]
