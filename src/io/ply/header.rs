@@ -149,8 +149,6 @@ impl<'a> Lines<'a> {
 
     fn next(&mut self) -> Option<&'a [u8]> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
-        // No further than a header may go, for the one line of a large file without line ends.
-        let rest = rest.get(..=LONGEST_HEADER).unwrap_or(rest);
         let line = rest.split(|&byte| byte == self.end).next().unwrap_or(rest);
         self.at += (line.len() + 1).min(rest.len());
         self.line += 1;
