@@ -202,7 +202,8 @@ impl Body<'_> {
         start: usize,
         element: &Element,
     ) -> Result<usize, PlyError> {
-        if count < 0.0 || count.fract() != 0.0 || !count.is_finite() {
+        // The fraction of what is not finite is no number, and so not zero.
+        if count < 0.0 || count.fract() != 0.0 {
             let problem = Problem::BadListCount(quoted(word(self.from(at))));
             return Err(PlyError::at_line(line_of(self.bytes, at), problem));
         }

@@ -7,6 +7,8 @@ use super::header::Element;
 /// Where in the file something is wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
+    /// Everywhere or nowhere: the file as a whole is not what it should be.
+    File,
     /// A line of the header or of an ASCII body, counted from 1.
     Line(usize),
     /// A byte of a binary body, counted from 0 at the start of the file.
@@ -16,6 +18,7 @@ pub enum Place {
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::File => f.write_str("the file"),
             Self::Line(line) => write!(f, "line {line}"),
             Self::Byte(byte) => write!(f, "byte {byte}"),
         }
@@ -24,7 +27,10 @@ impl fmt::Display for Place {
 
 /// A PLY file that cannot be read. Displayed as one line: the place, then what is wrong there.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{place}: {problem}")]
+#[error("{}{problem}", match .place {
+    Place::File => String::new(),
+    place => format!("{place}: "),
+})]
 pub struct PlyError {
     /// Where.
     pub place: Place,
@@ -33,6 +39,13 @@ pub struct PlyError {
 }
 
 impl PlyError {
+    pub(super) fn of_file(problem: Problem) -> Self {
+        Self {
+            place: Place::File,
+            problem,
+        }
+    }
+
     pub(super) fn at_line(line: usize, problem: Problem) -> Self {
         Self {
             place: Place::Line(line),

@@ -72,11 +72,11 @@ impl Header {
             match lines.next() {
                 Some(line) if line.trim_ascii().is_empty() => {}
                 Some(line) => break line.trim_ascii(),
-                None => return Err(PlyError::at_line(1, Problem::Empty)),
+                None => return Err(PlyError::of_file(Problem::Empty)),
             }
         };
         if !first.eq_ignore_ascii_case(b"ply") {
-            return Err(PlyError::at_line(lines.line, other_format(bytes)));
+            return Err(PlyError::of_file(other_format(bytes)));
         }
         let mut draft = Draft::default();
         while let Some(line) = lines.next() {
@@ -149,8 +149,6 @@ impl<'a> Lines<'a> {
 
     fn next(&mut self) -> Option<&'a [u8]> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
-        // No further than a header may go, for the one line of a large file without line ends.
-        let rest = rest.get(..=LONGEST_HEADER).unwrap_or(rest);
         let line = rest.split(|&byte| byte == self.end).next().unwrap_or(rest);
         self.at += (line.len() + 1).min(rest.len());
         self.line += 1;

@@ -49,6 +49,26 @@ pub struct PlyCloud {
 /// Positions in ASCII keep all the digits that stand in the file, even where the header says
 /// `float`.
 ///
+/// ```
+/// use axiscope::io::ply;
+///
+/// let file = b"ply
+/// format ascii 1.0
+/// comment unit cm
+/// element vertex 2
+/// property float x
+/// property float y
+/// property float z
+/// end_header
+/// 1 2 30
+/// nan 0 0
+/// ";
+/// let read = ply::read(file)?;
+/// assert_eq!(read.cloud.len(), 1);
+/// assert_eq!(read.dropped_not_finite, 1);
+/// # Ok::<(), ply::PlyError>(())
+/// ```
+///
 /// # Errors
 /// Where the bytes are no PLY file, its header is malformed or has no vertices with x, y and z, or
 /// its body is malformed or ends before the last vertex.
