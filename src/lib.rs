@@ -3,7 +3,7 @@
 //! The method of Li, Zhu, Huang, Guo and Qin, *Article Pose Estimation of Sweet Pepper through
 //! Symmetry Axis Detection*, Sensors 18 (2018) 3083, with every step open to the eye. A point cloud
 //! of a fruit seen by one depth camera enters through [`io`], walks through [`geometry`] and
-//! [`method`], and leaves as a symmetry plane and an axis that [`reference`] compares with others.
+//! [`method`], and leaves as a symmetry plane and an axis that [`mod@reference`] compares with others.
 //! [`simulate`] makes clouds whose axis is known.
 
 pub mod geometry;
