@@ -72,6 +72,18 @@ proptest! {
     }
 
     #[test]
+    fn the_robust_extent_is_that_of_sorted_coordinates(seed in 0u64..1000, count in 1usize..400) {
+        let points = scattered(seed, count);
+        let cut = (points.len() - 1) * 2 / 100;
+        let size = Extent::robust(&points).unwrap().size();
+        for axis in 0..3 {
+            let mut values: Vec<f64> = points.iter().map(|p| p[axis]).collect();
+            values.sort_by(f64::total_cmp);
+            prop_assert_eq!(size[axis], values[values.len() - 1 - cut] - values[cut]);
+        }
+    }
+
+    #[test]
     fn angles_keep_their_digits_near_zero(seed in 0u64..1000, exponent in -12.0..0.0f64) {
         let angle = 10f64.powf(exponent);
         let r = rotation(seed);

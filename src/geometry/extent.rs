@@ -33,7 +33,9 @@ impl Extent {
         if points.is_empty() {
             return None;
         }
-        let (low, high) = (points.len() / 50, points.len() - 1 - points.len() / 50);
+        // Rounded outwards, so that the few points of a small cloud all count.
+        let low = (points.len() - 1) * 2 / 100;
+        let high = points.len() - 1 - low;
         let mut column = Vec::with_capacity(points.len());
         let mut range = |axis: usize| {
             column.clear();

@@ -1,6 +1,6 @@
 //! The unit of a cloud whose file does not state one, guessed from its size.
 
-use crate::geometry::{Cloud, Unit};
+use crate::geometry::{Cloud, Extent, Unit};
 
 /// Where a unit comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,30 +65,9 @@ fn guess(extent: f64) -> Unit {
     }
 }
 
-/// The largest side of the box that holds the points from the 2nd to the 98th percentile of each
-/// axis, in the file's unit; zero for an empty cloud. Stray points, of which depth images have
-/// some, do not change it.
-pub fn robust_extent(cloud: &Cloud) -> f64 {
-    let Some(last) = cloud.len().checked_sub(1) else {
-        return 0.0;
-    };
-    // Rounded outwards, so that the few points of a small cloud all count.
-    let low = (last as f64 * 0.02).floor() as usize;
-    let high = last - low;
-    let mut values = Vec::with_capacity(cloud.len());
-    let mut largest: f64 = 0.0;
-    for axis in 0..3 {
-        values.clear();
-        values.extend(cloud.positions().iter().map(|p| p[axis]));
-        let (_, &mut lowest, above) = values.select_nth_unstable_by(low, f64::total_cmp);
-        // The part above the lower percentile holds the upper one, unless there is but one point.
-        let highest = match high.checked_sub(low + 1) {
-            Some(nth) => *above.select_nth_unstable_by(nth, f64::total_cmp).1,
-            None => lowest,
-        };
-        largest = largest.max(highest - lowest);
-    }
-    largest
+/// The longest edge of the cloud's robust extent, in the file's unit; zero for an empty cloud.
+fn robust_extent(cloud: &Cloud) -> f64 {
+    Extent::robust(cloud.positions()).map_or(0.0, |extent| extent.size().max_element())
 }
 
 /// Three significant digits, without an exponent where it can be avoided.
