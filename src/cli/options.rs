@@ -304,3 +304,11 @@ pub(super) fn depths(text: &str) -> Result<Depths, String> {
         (0..=steps as usize).map(|i| from + i as f64 * step).collect(),
     ))
 }
+
+/// Two finite numbers with a comma between them.
+pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
+    let (a, b) = text
+        .split_once(',')
+        .ok_or("expected two numbers with a comma between them")?;
+    Ok([number(a)?, number(b)?])
+}

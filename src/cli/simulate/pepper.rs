@@ -1,0 +1,174 @@
+//! The options of a simulated pepper.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use axiscope::simulate::{FruitColor, PepperSettings, Settings, Truth};
+use clap::{Args, ValueEnum};
+use glam::DVec3;
+
+use super::Output;
+use crate::cli::options::{pair, position};
+
+/// What is not set is drawn by the seed.
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
+pub(super) struct Pepper {
+    #[command(flatten)]
+    pub(super) output: Output,
+    /// Leave the peduncle's points out: the paper's second variant (§ 3.2)
+    #[arg(long)]
+    pub(super) without_peduncle: bool,
+    /// Start from the settings in a truth file (or a JSON object of settings) instead of the defaults
+    #[arg(long, value_name = "FILE")]
+    settings: Option<PathBuf>,
+
+    /// From the lowest lobe to the shoulders, in cm
+    #[arg(long, value_name = "CM", help_heading = "Fruit")]
+    height_cm: Option<f64>,
+    /// Twice the largest distance of a lobe from the axis, in cm
+    #[arg(long, value_name = "CM", help_heading = "Fruit")]
+    width_cm: Option<f64>,
+    /// How many lobes
+    #[arg(long, value_name = "N", help_heading = "Fruit")]
+    lobes: Option<u32>,
+    /// Depth of the grooves between lobes, relative to the radius
+    #[arg(long, value_name = "X", help_heading = "Fruit")]
+    lobe_depth: Option<f64>,
+    /// How much narrower the blossom end is, relative
+    #[arg(long, value_name = "X", help_heading = "Fruit")]
+    taper: Option<f64>,
+    /// How far the stem end is pressed in, in cm
+    #[arg(long, value_name = "CM", help_heading = "Fruit")]
+    dimple_cm: Option<f64>,
+    /// How far the fruit departs from its own symmetry, relative to its size [default: 0.03]
+    #[arg(long, value_name = "X", help_heading = "Fruit")]
+    asymmetry: Option<f64>,
+    /// The fruit's color
+    #[arg(long, value_enum, help_heading = "Fruit")]
+    color: Option<ColorOption>,
+    /// Length of the peduncle, in cm
+    #[arg(long, value_name = "CM", help_heading = "Fruit")]
+    peduncle_length_cm: Option<f64>,
+    /// Its thickness, in cm
+    #[arg(long, value_name = "CM", help_heading = "Fruit")]
+    peduncle_width_cm: Option<f64>,
+    /// The angle between the fruit's axis and the peduncle's free end, in degrees
+    #[arg(long, value_name = "DEG", help_heading = "Fruit")]
+    peduncle_bend_deg: Option<f64>,
+
+    /// How far the stem end leans towards the camera, in degrees
+    #[arg(long, value_name = "DEG", help_heading = "Pose")]
+    tilt_towards_camera_deg: Option<f64>,
+    /// How far the axis leans to the image's right, in degrees
+    #[arg(long, value_name = "DEG", help_heading = "Pose")]
+    tilt_sideways_deg: Option<f64>,
+    /// The largest lean towards the camera or away that is drawn [default: 25]
+    #[arg(long, value_name = "DEG", help_heading = "Pose")]
+    max_tilt_towards_camera_deg: Option<f64>,
+    /// The largest lean to a side that is drawn [default: 25]
+    #[arg(long, value_name = "DEG", help_heading = "Pose")]
+    max_tilt_sideways_deg: Option<f64>,
+    /// The turn about the fruit's own axis, in degrees
+    #[arg(long, value_name = "DEG", help_heading = "Pose")]
+    spin_deg: Option<f64>,
+    /// The nearest and farthest depth that are drawn, in cm [default: 30,60]
+    #[arg(long, value_name = "NEAR,FAR", value_parser = pair, help_heading = "Pose")]
+    distance_cm: Option<[f64; 2]>,
+    /// The fruit's center in the camera's frame, in cm
+    #[arg(long, value_name = "X,Y,Z", value_parser = position, allow_hyphen_values = true, help_heading = "Pose")]
+    center_cm: Option<DVec3>,
+
+    /// Share of the fruit that a leaf in front of it hides
+    #[arg(long, value_name = "F", help_heading = "Camera")]
+    leaf_cover: Option<f64>,
+    /// Standard deviation of a depth at 40 cm, in cm
+    #[arg(long, value_name = "CM", help_heading = "Camera")]
+    noise_cm: Option<f64>,
+    /// Depths are whole multiples of this, in cm; 0 for none
+    #[arg(long, value_name = "CM", help_heading = "Camera")]
+    depth_step_cm: Option<f64>,
+    /// The angle between ray and normal from which pixels begin to fail
+    #[arg(long, value_name = "DEG", help_heading = "Camera")]
+    grazing_deg: Option<f64>,
+    /// The share of all other pixels that fail at random
+    #[arg(long, value_name = "F", help_heading = "Camera")]
+    dropout: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ColorOption {
+    Red,
+    Yellow,
+    Green,
+}
+
+impl Pepper {
+    /// The settings that the options make; the seed is the caller's.
+    pub(super) fn settings(&self) -> anyhow::Result<PepperSettings> {
+        let mut s = match &self.settings {
+            Some(path) => read_settings(path)?,
+            None => PepperSettings::default(),
+        };
+        s.height_cm = self.height_cm.or(s.height_cm);
+        s.width_cm = self.width_cm.or(s.width_cm);
+        s.lobes = self.lobes.or(s.lobes);
+        s.lobe_depth = self.lobe_depth.or(s.lobe_depth);
+        s.taper = self.taper.or(s.taper);
+        s.dimple_cm = self.dimple_cm.or(s.dimple_cm);
+        s.color = self.color.map(Into::into).or(s.color);
+        s.peduncle_length_cm = self.peduncle_length_cm.or(s.peduncle_length_cm);
+        s.peduncle_width_cm = self.peduncle_width_cm.or(s.peduncle_width_cm);
+        s.peduncle_bend_deg = self.peduncle_bend_deg.or(s.peduncle_bend_deg);
+        s.tilt_towards_camera_deg = self.tilt_towards_camera_deg.or(s.tilt_towards_camera_deg);
+        s.tilt_sideways_deg = self.tilt_sideways_deg.or(s.tilt_sideways_deg);
+        s.spin_deg = self.spin_deg.or(s.spin_deg);
+        s.center_cm = self.center_cm.or(s.center_cm);
+        set(&mut s.asymmetry, self.asymmetry);
+        set(
+            &mut s.max_tilt_towards_camera_deg,
+            self.max_tilt_towards_camera_deg,
+        );
+        set(&mut s.max_tilt_sideways_deg, self.max_tilt_sideways_deg);
+        set(&mut s.distance_cm, self.distance_cm);
+        set(&mut s.leaf_cover, self.leaf_cover);
+        set(&mut s.camera.noise_cm, self.noise_cm);
+        set(&mut s.camera.step_cm, self.depth_step_cm);
+        set(&mut s.camera.grazing_deg, self.grazing_deg);
+        set(&mut s.camera.dropout, self.dropout);
+        Ok(s)
+    }
+}
+
+fn set<T>(field: &mut T, option: Option<T>) {
+    if let Some(value) = option {
+        *field = value;
+    }
+}
+
+impl From<ColorOption> for FruitColor {
+    fn from(color: ColorOption) -> Self {
+        match color {
+            ColorOption::Red => Self::Red,
+            ColorOption::Yellow => Self::Yellow,
+            ColorOption::Green => Self::Green,
+        }
+    }
+}
+
+/// The settings of a truth file, or of a file that holds nothing else.
+fn read_settings(path: &Path) -> anyhow::Result<PepperSettings> {
+    let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    if let Ok(truth) = serde_json::from_str::<Truth>(&text) {
+        return match truth.settings {
+            Settings::Pepper(settings) => Ok(*settings),
+            Settings::Ellipsoid(_) => {
+                anyhow::bail!(
+                    "{}: these are an ellipsoid's settings, not a pepper's",
+                    path.display()
+                )
+            }
+        };
+    }
+    serde_json::from_str(&text).with_context(|| format!("{}: no settings of a pepper", path.display()))
+}
