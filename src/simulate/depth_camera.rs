@@ -95,6 +95,16 @@ impl DepthImage {
         self.depths_cm.iter().filter(|d| d.is_finite()).count()
     }
 
+    /// Forgets all outside a rectangle of pixels.
+    pub(super) fn crop(&mut self, (low, high): (DVec2, DVec2)) {
+        for place in 0..self.depths_cm.len() {
+            let pixel = self.pixel(place);
+            if pixel.cmplt(low).any() || pixel.cmpgt(high).any() {
+                self.depths_cm[place] = f64::INFINITY;
+            }
+        }
+    }
+
     /// The pixels (their places in the rows) that show something.
     fn filled(&self) -> impl Iterator<Item = usize> {
         (0..self.depths_cm.len()).filter(|&i| self.depths_cm[i].is_finite())

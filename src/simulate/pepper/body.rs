@@ -18,6 +18,8 @@ const AROUND: u32 = 256;
 const BOXY: (f64, f64) = (2.9, 2.3);
 /// The radius of the dimples at the stem end and the blossom end, relative to the body's.
 const DIMPLE_RADIUS: (f64, f64) = (0.42, 0.33);
+/// The share of the stem end's dimple that the calyx fills.
+const CALYX_FILLS: f64 = 0.3;
 /// The blossom end's dimple is this much of the other's depth.
 const BLOSSOM_DIMPLE: f64 = 0.4;
 /// Keeps the grooves between the lobes round at their bottoms.
@@ -77,9 +79,10 @@ struct Fit {
 }
 
 impl Body {
-    /// The floor of the stem end's dimple on the axis, where the peduncle begins; height over the center.
-    pub(super) fn dimple_floor_cm(&self) -> f64 {
-        self.profile(FRAC_PI_2, self.fit()).up * self.half_height_cm
+    /// Where the peduncle begins, a little above the floor of the stem end's dimple, which its calyx
+    /// fills; height over the center.
+    pub(super) fn calyx_cm(&self) -> f64 {
+        self.profile(FRAC_PI_2, self.fit()).up * self.half_height_cm + CALYX_FILLS * self.dimple_cm
     }
 
     /// The skin, in the fruit's frame.

@@ -139,7 +139,7 @@ fn draw_body(wanted: &PepperSettings, rng: &mut ChaCha8Rng) -> Result<Body, Simu
 
 fn draw_peduncle(wanted: &PepperSettings, body: &Body, rng: &mut ChaCha8Rng) -> Peduncle {
     Peduncle {
-        base_cm: body.dimple_floor_cm(),
+        base_cm: body.calyx_cm(),
         length_cm: set_or_draw(wanted.peduncle_length_cm, rng, 3.5, 5.0),
         width_cm: set_or_draw(wanted.peduncle_width_cm, rng, 0.7, 0.95),
         bend_deg: set_or_draw(wanted.peduncle_bend_deg, rng, 10.0, 50.0),

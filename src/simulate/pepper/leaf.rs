@@ -28,7 +28,7 @@ impl Leaf {
     pub(super) fn draw(rng: &mut impl Rng) -> Self {
         let length_cm = 11.0 + 5.0 * rng.random::<f64>();
         // From above and the sides: leaves hang, they do not stand up before a fruit.
-        let towards_rad = PI / 2.0 + (rng.random::<f64>() - 0.5) * 0.8 * TAU;
+        let towards_rad = PI / 2.0 + (rng.random::<f64>() - 0.5) * PI;
         let lean = |u: f64| (u - 0.5) * 50_f64.to_radians();
         let [yaw, pitch] = rng.random::<[f64; 2]>().map(lean);
         Self {

@@ -21,6 +21,7 @@ impl PepperSettings {
     ///
     /// The cloud is in centimeters in the camera's frame, a point for each pixel that measured one,
     /// row by row, with colors and the labels of [`Cloud`], and without normals: a camera gives none.
+    /// A leaf is cropped to the rectangle of the image that the fruit takes up, as a detector's box would.
     ///
     /// # Errors
     /// Where a setting makes no sense, or the camera sees nothing of the fruit.
@@ -37,7 +38,9 @@ impl PepperSettings {
         if self.leaf_cover > 0.0 {
             let (leaf, hidden) = drawn.leaf.covering(self.leaf_cover, camera, &image, &drawn.paint);
             scene.append(&leaf);
+            let around_fruit = image.bounds();
             image = camera.look(&scene);
+            image.crop(around_fruit);
             hidden_by_leaf = Some(hidden);
         }
         let measured = camera.measure(&scene, &image, &mut stream(self.seed, Stream::Camera));

@@ -11,12 +11,10 @@ use crate::geometry::Cloud;
 const RINGS: u32 = 64;
 const AROUND: u32 = 48;
 
-/// How far the tube starts below the dimple's floor, so that no gap shows.
-const ROOT_CM: f64 = 0.1;
 /// Over which length the calyx at the base narrows to the stalk.
-const CALYX_HEIGHT_CM: f64 = 0.22;
+const CALYX_HEIGHT_CM: f64 = 0.3;
 /// The calyx reaches this much farther out than the stalk's radius, in radii.
-const CALYX_FLARE: f64 = 2.0;
+const CALYX_FLARE: f64 = 2.3;
 
 /// The peduncle's measures, in the fruit's frame.
 #[derive(Debug, Clone)]
@@ -63,7 +61,7 @@ impl Peduncle {
     /// of the way: along the axis at first.
     fn centerline(&self) -> Vec<(DVec2, f64)> {
         let step_cm = self.length_cm / f64::from(RINGS - 1);
-        let mut point = DVec2::new(0.0, self.base_cm - ROOT_CM);
+        let mut point = DVec2::new(0.0, self.base_cm);
         (0..RINGS)
             .map(|ring| {
                 let angle_rad = self.bend_deg.to_radians() * share(ring).powi(2);
@@ -74,7 +72,8 @@ impl Peduncle {
             .collect()
     }
 
-    /// A stalk with five blunt ribs, thickened where it was cut, on a flat calyx.
+    /// A stalk with five blunt ribs, thickened where it was cut, on a low cone of a calyx. The calyx is
+    /// wider than the dimple at its height, so that its rim is inside the body and no gap shows.
     fn radius_cm(&self, along_cm: f64, around_rad: f64) -> f64 {
         let along = along_cm / self.length_cm;
         let stalk = 0.93 + 0.22 * along.powi(3);

@@ -37,7 +37,7 @@ pub struct PepperSettings {
     /// The fruit's color; drawn evenly.
     pub color: Option<FruitColor>,
 
-    /// Length of the peduncle along its curve, from the dimple's floor; drawn from 3.5 to 5, settable from 0.5 to 20 cm.
+    /// Length of the peduncle along its curve, from the calyx in the dimple; drawn from 3.5 to 5, settable from 0.5 to 20 cm.
     pub peduncle_length_cm: Option<f64>,
     /// Its thickness; drawn from 0.7 to 0.95, settable from 0.1 to 5 cm.
     pub peduncle_width_cm: Option<f64>,
@@ -62,6 +62,7 @@ pub struct PepperSettings {
     pub center_cm: Option<DVec3>,
 
     /// The share of the fruit (peduncle included) that a leaf before it hides, 0 to 0.9; 0 for no leaf.
+    /// What it really hides is in the truth.
     pub leaf_cover: f64,
     /// The camera.
     pub camera: DepthCamera,
