@@ -118,7 +118,7 @@ impl Drawn {
 
 fn draw_body(wanted: &PepperSettings, rng: &mut ChaCha8Rng) -> Result<Body, SimulateError> {
     let height_cm = set_or_draw(wanted.height_cm, rng, 7.0, 11.0);
-    let width_cm = set_or_draw(wanted.width_cm, rng, 6.0, 9.0);
+    let width_cm = set_or_draw(wanted.width_cm, rng, 0.75 * height_cm, 0.95 * height_cm);
     let drawn_lobes = rng.random_range(3..=4);
     let lobe_depth = set_or_draw(wanted.lobe_depth, rng, 0.08, 0.16);
     let taper = set_or_draw(wanted.taper, rng, 0.1, 0.35);

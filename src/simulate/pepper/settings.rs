@@ -19,7 +19,8 @@ pub struct PepperSettings {
 
     /// From the lowest lobe to the shoulders; drawn from 7 to 11, settable from 1 to 50 cm.
     pub height_cm: Option<f64>,
-    /// Twice the largest distance of a lobe from the axis; drawn from 6 to 9, settable from 1 to 50 cm.
+    /// Twice the largest distance of a lobe from the axis; drawn from 0.75 to 0.95 of the height, as blocky
+    /// sweet peppers have it, settable from 1 to 50 cm.
     pub width_cm: Option<f64>,
     /// How many lobes; drawn 3 or 4, settable from 1 to 12.
     pub lobes: Option<u32>,
