@@ -213,28 +213,50 @@ impl DepthCamera {
             depths_cm: vec![f64::INFINITY; width * height],
             triangles: vec![0; width * height],
         };
-        for triangle in 0..mesh.triangles.len() as u32 {
+        self.look_on(mesh, 0, &mut image);
+        image
+    }
+
+    /// Adds what was appended to a mesh, the triangles from `first` on, to the image of those before.
+    pub(super) fn look_on(&self, mesh: &Mesh, first: usize, image: &mut DepthImage) {
+        self.rasterize(mesh, first, |place, inverse, triangle| {
+            if inverse * image.depths_cm[place] > 1.0 {
+                image.depths_cm[place] = 1.0 / inverse;
+                image.triangles[place] = triangle;
+            }
+        });
+    }
+
+    /// How many pixels of an image the mesh would hide.
+    pub(super) fn count_hidden(&self, mesh: &Mesh, image: &DepthImage) -> usize {
+        let mut hidden = vec![false; image.depths_cm.len()];
+        self.rasterize(mesh, 0, |place, inverse, _| {
+            let depth_cm = image.depths_cm[place];
+            hidden[place] |= depth_cm.is_finite() && inverse * depth_cm > 1.0;
+        });
+        hidden.into_iter().filter(|&h| h).count()
+    }
+
+    /// Calls `visit` with each pixel that a triangle covers (its place in the rows), the inverse
+    /// depth there, and the triangle; a pixel comes as often as surfaces lie behind each other.
+    fn rasterize(&self, mesh: &Mesh, first: usize, mut visit: impl FnMut(usize, f64, u32)) {
+        let size = DVec2::new(self.width_px.into(), self.height_px.into());
+        for triangle in first as u32..mesh.triangles.len() as u32 {
             let Some(flat) = self.project(mesh, triangle) else {
                 continue;
             };
             let [a, b, c] = flat.corners;
             // Clamped to the image before they become whole: an empty range where it is outside.
-            let size = DVec2::new(width as f64, height as f64);
             let low = a.min(b).min(c).ceil().clamp(DVec2::ZERO, size);
             let high = (a.max(b).max(c).floor() + 1.0).clamp(DVec2::ZERO, size);
             for row in low.y as usize..high.y as usize {
                 for column in low.x as usize..high.x as usize {
                     if let Some((inverse, _)) = flat.at(DVec2::new(column as f64, row as f64)) {
-                        let place = row * width + column;
-                        if inverse * image.depths_cm[place] > 1.0 {
-                            image.depths_cm[place] = 1.0 / inverse;
-                            image.triangles[place] = triangle;
-                        }
+                        visit(row * self.width_px as usize + column, inverse, triangle);
                     }
                 }
             }
         }
-        image
     }
 
     /// What the camera makes of the image: a point for each pixel that works, row by row.

@@ -15,8 +15,8 @@ pub enum SimulateError {
         /// The values that would do, in words.
         allowed: &'static str,
     },
-    /// The viewpoint is inside the ellipsoid or on it, where no point of the surface faces it.
-    #[error("the viewpoint is inside the ellipsoid: move its center farther away or shrink its half-axes")]
+    /// The viewpoint is inside the fruit or on it, where no point of the surface faces it.
+    #[error("the viewpoint is inside the fruit: move its center farther away or make it smaller")]
     ViewpointInside,
     /// The ellipsoid shows the camera too little of itself to place the wanted points.
     #[error("only {found} of {wanted} points were found on the side that faces the viewpoint")]

@@ -85,6 +85,11 @@ impl Body {
         self.profile(FRAC_PI_2, self.fit()).up * self.half_height_cm + CALYX_FILLS * self.dimple_cm
     }
 
+    /// The radius of a ball around the center that holds the body.
+    pub(super) fn ball_cm(&self) -> f64 {
+        self.half_height_cm.hypot(self.half_width_cm)
+    }
+
     /// The skin, in the fruit's frame.
     pub(super) fn mesh(&self, paint: &Paint) -> Mesh {
         let fit = self.fit();

@@ -40,6 +40,10 @@ impl Drawn {
         let mut pose = stream(seed, Stream::Pose);
         let tilt = Tilt::draw(wanted, &mut pose);
         let center_cm = draw_center(wanted, &body, &peduncle, &mut pose);
+        // A camera inside would see the skin's inner side. Irregular fruits reach out a little farther.
+        if center_cm.length() <= body.ball_cm() * (1.0 + 2.0 * wanted.asymmetry) {
+            return Err(SimulateError::ViewpointInside);
+        }
         let mut colors = stream(seed, Stream::Color);
         let drawn_color = FruitColor::ALL[colors.random_range(0..FruitColor::ALL.len())];
         let color = wanted.color.unwrap_or(drawn_color);
@@ -182,7 +186,7 @@ fn draw_center(wanted: &PepperSettings, body: &Body, peduncle: &Peduncle, rng: &
     let [right, down, ahead] = rng.random::<[f64; 3]>();
     let [nearest, farthest] = wanted.distance_cm;
     let depth = nearest + (farthest - nearest) * ahead;
-    let ball = body.half_height_cm.hypot(body.half_width_cm);
+    let ball = body.ball_cm();
     // Upright or nearly so, the peduncle needs room above; leaning, it needs less there and finds it
     // at the sides, which are wider.
     let above = ball.max(peduncle.base_cm + peduncle.length_cm);

@@ -53,7 +53,7 @@ impl Leaf {
             let shape = self.mesh(paint);
             let hidden_at = |reach_cm: f64| {
                 let leaf = self.placed(&shape, &seen, reach_cm);
-                let hidden = seen.hidden_by(&camera.look(&leaf), fruit);
+                let hidden = camera.count_hidden(&leaf, fruit) as f64 / seen.pixels as f64;
                 (leaf, hidden)
             };
             // From not touching the fruit to lying over its middle.
@@ -133,11 +133,5 @@ impl FruitSeen {
             radius_cm: (high - low).length() / 2.0 * nearest_cm,
             pixels: fruit.covered(),
         }
-    }
-
-    fn hidden_by(&self, leaf: &DepthImage, fruit: &DepthImage) -> f64 {
-        let pairs = leaf.depths_cm.iter().zip(&fruit.depths_cm);
-        let hidden = pairs.filter(|(l, f)| l < f && f.is_finite()).count();
-        hidden as f64 / self.pixels as f64
     }
 }

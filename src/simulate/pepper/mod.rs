@@ -37,9 +37,10 @@ impl PepperSettings {
         let mut hidden_by_leaf = None;
         if self.leaf_cover > 0.0 {
             let (leaf, hidden) = drawn.leaf.covering(self.leaf_cover, camera, &image, &drawn.paint);
+            let before = scene.triangles.len();
             scene.append(&leaf);
             let around_fruit = image.bounds();
-            image = camera.look(&scene);
+            camera.look_on(&scene, before, &mut image);
             image.crop(around_fruit);
             hidden_by_leaf = Some(hidden);
         }
