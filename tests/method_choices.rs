@@ -73,6 +73,29 @@ proptest! {
     }
 
     #[test]
+    fn no_sphere_nearby_fits_better(seed in 0u64..1000) {
+        // A bumpy body is no sphere: the algebraic fit that the search starts from is another one.
+        let points = view(seed, 300).points;
+        let misfit = |center: DVec3, radius: f64| points.iter().map(|p| (p.distance(center) - radius).powi(2)).sum::<f64>();
+        let (center, radius) = fit_sphere(&points).unwrap();
+        let least = misfit(center, radius);
+        for step in [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| 1e-3 * axis) {
+            prop_assert!(least < misfit(center + step, radius) && least < misfit(center - step, radius));
+        }
+        prop_assert!(least < misfit(center, radius + 1e-3) && least < misfit(center, radius - 1e-3));
+    }
+
+    #[test]
+    fn eq_3_as_intended_is_a_standard_deviation(seed in 0u64..1000, count in 1usize..40, x in -9.0..9.0f64) {
+        let points = view(seed, count).points;
+        let p = DVec3::new(x, 2.0, 25.0);
+        let distances: Vec<f64> = points.iter().map(|q| q.distance(p)).collect();
+        let mean = distances.iter().sum::<f64>() / distances.len() as f64;
+        let variance = distances.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / distances.len() as f64;
+        prop_assert!((distance_deviation(&points, p).unwrap() - variance.sqrt()).abs() < 1e-7);
+    }
+
+    #[test]
     fn the_axis_lies_in_the_plane_and_across_the_view_ray(seed in 0u64..1000) {
         let [n, c] = [rotation(seed) * DVec3::X, 10.0 * (rotation(seed + 1) * DVec3::Y)];
         let viewpoint = DVec3::new(1.0, 2.0, -30.0);

@@ -175,3 +175,60 @@ impl Peduncle {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hues_are_those_of_the_color_wheel() {
+        let cases = [
+            ([255, 0, 0, 255], 0.0),
+            ([255, 255, 0, 255], 60.0),
+            ([0, 200, 0, 255], 120.0),
+            ([0, 0, 9, 255], 240.0),
+        ];
+        for (color, hue) in cases {
+            assert_eq!(hue_deg(color), Some(hue));
+        }
+        assert_eq!(hue_deg([255, 0, 128, 0]).map(f64::round), Some(330.0));
+        assert_eq!(hue_deg([128, 128, 128, 255]), None);
+        assert_eq!(hue_deg([0, 0, 0, 255]), None);
+        assert_eq!(hue_deg([100, 95, 97, 255]), None, "nearly gray");
+    }
+
+    #[test]
+    fn a_range_may_run_through_red() {
+        let red = HueRange {
+            from_deg: 350.0,
+            to_deg: 20.0,
+        };
+        assert!([350.0, 359.0, 0.0, 20.0].into_iter().all(|hue| red.contains(hue)));
+        assert!([21.0, 180.0, 349.0].into_iter().all(|hue| !red.contains(hue)));
+        let green = HueRange {
+            from_deg: 90.0,
+            to_deg: 150.0,
+        };
+        assert!(green.contains(120.0) && !green.contains(0.0) && !green.contains(151.0));
+    }
+
+    #[test]
+    fn the_reference_runs_from_the_center_through_the_peduncle_s_mean() {
+        let cloud = Cloud::new(vec![
+            DVec3::ZERO,
+            DVec3::new(1.0, 4.0, 0.0),
+            DVec3::new(3.0, 4.0, 0.0),
+        ]);
+        let cloud = cloud.with_labels(vec![0, 1, 1]).expect("one a point");
+        let peduncle = Peduncle::by_label(&cloud).expect("labeled");
+        let axis = peduncle
+            .reference_axis(DVec3::new(2.0, 1.0, 0.0))
+            .expect("an axis");
+        assert!(axis.direction.distance(DVec3::Y) < 1e-12);
+        assert_eq!(
+            peduncle.reference_axis(peduncle.mean),
+            Err(PeduncleError::AtCenter)
+        );
+        assert_eq!(peduncle.removed_from(&cloud).positions(), [DVec3::ZERO]);
+    }
+}
