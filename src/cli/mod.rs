@@ -24,7 +24,7 @@ use clap::{CommandFactory, Parser, Subcommand};
     arg_required_else_help = true
 )]
 struct Cli {
-    /// Worker threads (all cores by default). The numbers do not hang on it
+    /// Worker threads [default: all cores]; results do not depend on it
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     #[command(subcommand)]

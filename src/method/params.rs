@@ -1,4 +1,4 @@
-//! Every number and choice that the result hangs on, and the two readings of the paper.
+//! Every number and choice that the result depends on, and the two readings of the paper.
 
 use std::num::NonZeroUsize;
 

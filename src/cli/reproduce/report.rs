@@ -174,7 +174,7 @@ fn peppers(out: &mut String, settings: &Settings<'_>, peppers: &[Pepper]) -> std
     )?;
     writeln!(
         out,
-        "- **The errors of about 7°.** They hang on the center: compare the mean of the scores with the true center against its other rows. On the side of a fruit that the camera sees, neither reading of Eq. 3 finds the center of a body that is no sphere (the table says how far off it is), and planes through a wrong center score wrongly."
+        "- **The errors of about 7°.** They depend on the center: compare the mean of the scores with the true center against its other rows. On the side of a fruit that the camera sees, neither reading of Eq. 3 finds the center of a body that is no sphere (the table says how far off it is), and planes through a wrong center score wrongly."
     )?;
     writeln!(
         out,

@@ -35,7 +35,7 @@ enum Shape {
 #[command(next_help_heading = "Output")]
 struct Output {
     /// The PLY file to write, or a folder for several; the truth goes beside it as NAME.truth.json
-    ///
+    /// [default: pepper.ply or ellipsoid.ply; for several, the folder peppers or ellipsoids]
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
     /// How many clouds, each with a seed of its own that follows from --seed
