@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Context;
+use axiscope::evaluate::{AnalysisReport, Examined, Timings, TruthChoice, examine, reference_of};
 use axiscope::geometry::Unit;
-use axiscope::io::{AnalysisReport, Fruit, Request, Timings};
-use axiscope::method::{Aggregation, Analysis, AxisEstimate, CenterMethod, Stage, analyze};
+use axiscope::io::Fruit;
+use axiscope::method::{Aggregation, Analysis, CenterMethod, Stage};
 use axiscope::reference::{PeduncleSource, axis_error_rad};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
@@ -34,35 +35,27 @@ enum Format {
     Json,
 }
 
-/// One cloud, analyzed and compared.
-struct Outcome {
-    fruit: Fruit,
-    analysis: Analysis,
-    reference: Option<AxisEstimate>,
-    warnings: Vec<String>,
-    timings: Timings,
-}
-
 pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
-    let outcome = analyze_file(&args.cloud, &args.analysis)?;
+    let started = Instant::now();
+    let request = args.analysis.request();
+    let fruit = Fruit::read(&args.cloud, request.unit, &request.peduncle)?;
+    let read = milliseconds_since(started);
+    let clock = StageClock::new();
+    let examined = examine(fruit, &request, &clock);
+    let times = clock.finish();
+    let examined = examined.with_context(|| args.cloud.display().to_string())?;
+    let timings = Timings {
+        read,
+        normals: times.milliseconds(Stage::Normals),
+        center: times.milliseconds(Stage::Center),
+        plane_terms: times.milliseconds(Stage::PlaneTerms),
+        total: milliseconds_since(started),
+    };
     let mut out = std::io::stdout().lock();
     match args.format {
-        Format::Text => write_text(&mut out, &args.cloud, &outcome)?,
+        Format::Text => write_text(&mut out, &args.cloud, &examined, &timings)?,
         Format::Json => {
-            let request = Request {
-                path: &args.cloud,
-                peduncle: &args.analysis.peduncle,
-                without_peduncle: args.analysis.without_peduncle,
-                seed: args.analysis.seed,
-            };
-            let report = AnalysisReport::new(
-                &request,
-                &outcome.fruit,
-                &outcome.analysis,
-                outcome.reference.as_ref(),
-                outcome.warnings,
-                outcome.timings,
-            );
+            let report = AnalysisReport::new(&args.cloud, &request, args.analysis.seed, &examined, timings);
             // Whole before the first byte goes out: a reader gets all of it or nothing.
             let text = serde_json::to_string_pretty(&report)?;
             writeln!(out, "{text}")?;
@@ -71,71 +64,23 @@ pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn analyze_file(path: &Path, options: &AnalysisOptions) -> anyhow::Result<Outcome> {
-    let started = Instant::now();
-    let fruit = Fruit::read(path, options.unit.unit(), &options.peduncle)?;
-    let read = milliseconds_since(started);
-
-    let mut warnings = fruit.warnings.clone();
-    if options.without_peduncle && fruit.peduncle.is_none() {
-        warnings.push("There is no peduncle to leave out: the cloud is analyzed as it stands.".into());
-    }
-    let clock = StageClock::new();
-    let params = options.params(&fruit);
-    let analysis = if options.without_peduncle {
-        analyze(&fruit.body(), &params, &clock)
-    } else {
-        analyze(fruit.cloud(), &params, &clock)
-    };
-    let times = clock.finish();
-    let analysis = analysis.with_context(|| path.display().to_string())?;
-    warnings.extend(analysis.warnings.iter().map(|w| sentence(&w.to_string())));
-
-    let reference = fruit.peduncle.as_ref().map(|p| p.reference_axis(analysis.center));
-    let reference = match reference.transpose() {
-        Ok(reference) => reference,
-        Err(error) => {
-            warnings.push(sentence(&error.to_string()));
-            None
-        }
-    };
-    Ok(Outcome {
-        fruit,
-        analysis,
-        reference,
-        warnings,
-        timings: Timings {
-            read,
-            normals: times.milliseconds(Stage::Normals),
-            center: times.milliseconds(Stage::Center),
-            plane_terms: times.milliseconds(Stage::PlaneTerms),
-            total: milliseconds_since(started),
-        },
-    })
-}
-
 fn milliseconds_since(start: Instant) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
 }
 
-/// An error's text as a sentence of its own.
-fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    let first: String = letters
-        .next()
-        .map(|c| c.to_uppercase().collect())
-        .unwrap_or_default();
-    format!("{first}{}.", letters.as_str())
-}
-
-fn write_text(out: &mut impl Write, path: &Path, outcome: &Outcome) -> std::io::Result<()> {
-    let Outcome {
+fn write_text(
+    out: &mut impl Write,
+    path: &Path,
+    examined: &Examined,
+    timings: &Timings,
+) -> std::io::Result<()> {
+    let Examined {
         fruit,
         analysis,
-        reference,
+        references,
         warnings,
-        timings,
-    } = outcome;
+    } = examined;
+    let reference = reference_of(references, TruthChoice::Peduncle);
     let (params, unit) = (&analysis.params, fruit.unit);
     let grid = analysis.planes.grid;
     let (points, used) = (fruit.cloud().len(), analysis.surface.len());

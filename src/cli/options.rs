@@ -4,8 +4,9 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use axiscope::geometry::{Cloud, Unit};
-use axiscope::io::{Fruit, PeduncleChoice};
+use axiscope::evaluate::Request;
+use axiscope::geometry::Unit;
+use axiscope::io::PeduncleChoice;
 use axiscope::method::{
     Aggregation, CandidateGrid, CenterMethod, Filters, NormalSource, OutlierFilter, Params, Preset,
     RandomSearch, TAU_CM_PER_RAD,
@@ -147,8 +148,22 @@ impl FromStr for CenterOption {
 }
 
 impl AnalysisOptions {
-    /// The method's parameters for this fruit.
-    pub(super) fn params(&self, fruit: &Fruit) -> Params {
+    /// What to do with a cloud.
+    pub(super) fn request(&self) -> Request {
+        Request {
+            unit: self.unit.unit(),
+            peduncle: self.peduncle.clone(),
+            without_peduncle: self.without_peduncle,
+            normals: match self.normals {
+                NormalsOption::Estimate => Some(NormalSource::Estimate),
+                NormalsOption::File => Some(NormalSource::File),
+                NormalsOption::Auto => None,
+            },
+            params: self.params(),
+        }
+    }
+
+    fn params(&self) -> Params {
         let preset = match self.preset {
             PresetOption::AsPrinted => Preset::AsPrinted,
             PresetOption::AsIntended => Preset::AsIntended,
@@ -158,7 +173,7 @@ impl AnalysisOptions {
             spread: self.center_spread,
             seed: self.seed,
         };
-        let defaults = Params::new(preset, fruit.unit);
+        let defaults = Params::new(preset, Unit::Centimeter);
         let aggregation = match self.aggregate {
             Some(AggregateOption::Mean) => Aggregation::Mean,
             Some(AggregateOption::Sum) => Aggregation::Sum,
@@ -167,7 +182,6 @@ impl AnalysisOptions {
         Params {
             u: self.u,
             tau_cm_per_rad: self.tau.unwrap_or(TAU_CM_PER_RAD),
-            normals: self.normal_source(fruit.cloud()),
             k: self.k,
             center: match self.center {
                 Some(CenterOption::Equidistant) => CenterMethod::Equidistant(search),
@@ -189,17 +203,6 @@ impl AnalysisOptions {
                 voxel_cm: self.voxel_cm,
             },
             ..defaults
-        }
-    }
-
-    fn normal_source(&self, cloud: &Cloud) -> NormalSource {
-        match self.normals {
-            NormalsOption::Estimate => NormalSource::Estimate,
-            NormalsOption::File => NormalSource::File,
-            NormalsOption::Auto => match cloud.normals() {
-                Some(_) => NormalSource::File,
-                None => NormalSource::Estimate,
-            },
         }
     }
 }

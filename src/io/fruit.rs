@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::{CloudFile, ReadError, read_cloud, unit_guess};
 use crate::geometry::{Cloud, Unit};
 use crate::reference::{HueRange, Peduncle, PeduncleError};
+use crate::simulate::Truth;
 
 /// Where to look for the peduncle.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +31,8 @@ pub struct Fruit {
     pub unit: Unit,
     /// Its peduncle, where it has one.
     pub peduncle: Option<Peduncle>,
+    /// The simulator's truth about it, where `NAME.truth.json` lies beside the cloud; in the cloud's unit.
+    pub truth: Option<Truth>,
     /// What the reader ought to know about the file, one sentence each.
     pub warnings: Vec<String>,
 }
@@ -69,10 +72,18 @@ impl Fruit {
         let (unit, _, doubt) = unit_guess::resolve(&file.ply.cloud, stated);
         warnings.extend(doubt);
         let peduncle = find_peduncle(path, &file.ply.cloud, choice)?;
+        let truth = match read_truth(&truth_path(path)) {
+            Ok(truth) => truth.map(|truth| truth.in_unit(unit)),
+            Err(problem) => {
+                warnings.push(problem);
+                None
+            }
+        };
         Ok(Self {
             file,
             unit,
             peduncle,
+            truth,
             warnings,
         })
     }
@@ -96,6 +107,31 @@ pub fn companion_path(path: &Path) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_os_string();
     name.push("_peduncle.ply");
     path.with_file_name(name)
+}
+
+/// Where the simulator writes what it knows of a cloud: `NAME.truth.json` beside `NAME.ply`.
+pub fn truth_path(path: &Path) -> PathBuf {
+    path.with_extension("truth.json")
+}
+
+/// A truth file's content; `None` where there is no file, and a sentence where it cannot be used.
+fn read_truth(path: &Path) -> Result<Option<Truth>, String> {
+    let text = match std::fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(format!("{}: {error}.", path.display())),
+    };
+    let unusable = |why: String| format!("{}: this truth is not used: {why}.", path.display());
+    let truth: Truth = serde_json::from_str(&text).map_err(|error| unusable(error.to_string()))?;
+    if truth.schema == Truth::SCHEMA {
+        Ok(Some(truth))
+    } else {
+        Err(unusable(format!(
+            "its schema is {:?}, not {:?}",
+            truth.schema,
+            Truth::SCHEMA
+        )))
+    }
 }
 
 fn find_peduncle(

@@ -1,4 +1,4 @@
-//! Bytes to clouds and back, reports and figures.
+//! Bytes to clouds and back, and figures.
 //!
 //! Readers take bytes, so that a browser build can hand them what it fetched; [`read_cloud`] is the
 //! one place here that opens a file.
@@ -7,9 +7,7 @@ mod cloud_file;
 pub mod figures;
 mod fruit;
 pub mod ply;
-mod report;
 pub mod unit_guess;
 
 pub use cloud_file::{CloudFile, ReadError, ReadErrorKind, parse_cloud, read_cloud};
-pub use fruit::{Fruit, FruitError, PeduncleChoice, companion_path};
-pub use report::{AnalysisReport, Request, SCHEMA, Timings};
+pub use fruit::{Fruit, FruitError, PeduncleChoice, companion_path, truth_path};

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Fruit, PeduncleChoice};
+use super::{Examined, Request, TruthChoice, reference_of};
 use crate::geometry::Unit;
-use crate::method::{Aggregation, Analysis, AxisEstimate, CenterMethod, NormalSource};
+use crate::method::{Aggregation, CenterMethod, NormalSource, Params};
 use crate::reference::axis_error_rad;
 
 /// The schema's name and version.
@@ -115,29 +115,17 @@ struct ReferenceReport {
     error_deg: Option<f64>,
 }
 
-/// What was asked for, beyond the method's own parameters.
-#[derive(Debug, Clone)]
-pub struct Request<'a> {
-    /// The cloud's file, as the user named it.
-    pub path: &'a Path,
-    /// Where the peduncle was looked for.
-    pub peduncle: &'a PeduncleChoice,
-    /// Whether the peduncle's points were left out.
-    pub without_peduncle: bool,
-    /// The seed that was given, in force or not.
-    pub seed: u64,
-}
-
 impl AnalysisReport {
-    /// Puts a report together. `warnings` come after the file's and the method's own.
-    pub fn new(
-        request: &Request<'_>,
-        fruit: &Fruit,
-        analysis: &Analysis,
-        reference: Option<&AxisEstimate>,
-        warnings: Vec<String>,
-        timings_ms: Timings,
-    ) -> Self {
+    /// Puts a report together: `path` is the cloud's file as the user named it, `seed` the one that
+    /// was given, in force or not.
+    pub fn new(path: &Path, request: &Request, seed: u64, examined: &Examined, timings_ms: Timings) -> Self {
+        let Examined {
+            fruit,
+            analysis,
+            references,
+            warnings,
+        } = examined;
+        let reference = reference_of(references, TruthChoice::Peduncle);
         let planes = &analysis.planes;
         let rows = planes
             .grid
@@ -147,13 +135,13 @@ impl AnalysisReport {
         Self {
             schema: SCHEMA,
             cloud: CloudReport {
-                file: request.path.display().to_string(),
+                file: path.display().to_string(),
                 sha256: fruit.file.sha256.clone(),
                 points: fruit.cloud().len(),
                 used_points: analysis.surface.len(),
                 unit: fruit.unit,
             },
-            params: params_report(request, analysis),
+            params: params_report(request, seed, &analysis.params),
             center: analysis.center.to_array(),
             planes: rows
                 .map(|((candidate, term), score)| PlaneReport {
@@ -187,14 +175,13 @@ impl AnalysisReport {
                     .as_ref()
                     .map(|axis| axis_error_rad(axis, reference).to_degrees()),
             }),
-            warnings,
+            warnings: warnings.clone(),
             timings_ms,
         }
     }
 }
 
-fn params_report(request: &Request<'_>, analysis: &Analysis) -> ParamsReport {
-    let params = &analysis.params;
+fn params_report(request: &Request, seed: u64, params: &Params) -> ParamsReport {
     let search = params.center.search();
     ParamsReport {
         preset: params.preset_name(),
@@ -217,7 +204,7 @@ fn params_report(request: &Request<'_>, analysis: &Analysis) -> ParamsReport {
         aggregate: params.aggregation,
         min_partner_fraction: params.min_partner_fraction,
         viewpoint: params.viewpoint.to_array(),
-        seed: request.seed,
+        seed,
         peduncle: request.peduncle.to_string(),
         without_peduncle: request.without_peduncle,
         outlier_neighbors: params.filters.outliers.map(|f| f.neighbors.get()),

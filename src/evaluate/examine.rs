@@ -1,0 +1,122 @@
+//! One cloud, analyzed and compared with every reference that is known of it.
+
+use crate::geometry::{Cloud, Unit};
+use crate::io::{Fruit, PeduncleChoice};
+use crate::method::{
+    Analysis, AnalysisError, AxisEstimate, AxisSource, NormalSource, Observe, Params, analyze,
+};
+
+/// What to do with a cloud, before anything is known of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// The unit of its coordinates; `None` as the file states it, else guessed.
+    pub unit: Option<Unit>,
+    /// Where its peduncle is.
+    pub peduncle: PeduncleChoice,
+    /// Whether the peduncle's points are left out of the analysis.
+    pub without_peduncle: bool,
+    /// Where normals come from; `None` from the file where it has them.
+    pub normals: Option<NormalSource>,
+    /// Everything else. Its unit and source of normals are not looked at.
+    pub params: Params,
+}
+
+impl Request {
+    /// The parameters for this fruit: what was left open is settled.
+    pub fn params(&self, fruit: &Fruit) -> Params {
+        let of_file = |cloud: &Cloud| match cloud.normals() {
+            Some(_) => NormalSource::File,
+            None => NormalSource::Estimate,
+        };
+        Params {
+            unit: fruit.unit,
+            normals: self.normals.unwrap_or_else(|| of_file(fruit.cloud())),
+            ..self.params.clone()
+        }
+    }
+}
+
+/// Which reference an error is measured against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TruthChoice {
+    /// The simulator's truth where there is one, else the peduncle's.
+    Auto,
+    /// The peduncle's axis (§ 3.2).
+    Peduncle,
+    /// The axis in `NAME.truth.json`.
+    Truth,
+}
+
+/// A cloud's analysis and its references.
+#[derive(Debug, Clone)]
+pub struct Examined {
+    /// The cloud.
+    pub fruit: Fruit,
+    /// Its analysis.
+    pub analysis: Analysis,
+    /// The axes to compare with, the peduncle's first.
+    pub references: Vec<AxisEstimate>,
+    /// What the reader ought to know: the file's warnings, then the method's. Sentences.
+    pub warnings: Vec<String>,
+}
+
+/// Analyzes a fruit as asked, and gathers its references.
+///
+/// # Errors
+/// Where the cloud cannot be analyzed, or the watcher calls the work off.
+pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result<Examined, AnalysisError> {
+    let mut warnings = fruit.warnings.clone();
+    if request.without_peduncle && fruit.peduncle.is_none() {
+        warnings.push("There is no peduncle to leave out: the cloud is analyzed as it stands.".into());
+    }
+    let params = request.params(&fruit);
+    let analysis = if request.without_peduncle {
+        analyze(&fruit.body(), &params, observe)?
+    } else {
+        analyze(fruit.cloud(), &params, observe)?
+    };
+    warnings.extend(analysis.warnings.iter().map(|w| sentence(&w.to_string())));
+    let mut references = Vec::new();
+    match fruit.peduncle.as_ref().map(|p| p.reference_axis(analysis.center)) {
+        Some(Ok(axis)) => references.push(axis),
+        Some(Err(error)) => warnings.push(sentence(&error.to_string())),
+        None => {}
+    }
+    if let Some(truth) = &fruit.truth {
+        if truth.revolution_axis.is_some() {
+            warnings.extend(truth.note.clone());
+        }
+        references.push(AxisEstimate {
+            source: AxisSource::Simulation,
+            origin: truth.axis.origin,
+            direction: truth.axis.direction,
+            confidence: None,
+        });
+    }
+    Ok(Examined {
+        fruit,
+        analysis,
+        references,
+        warnings,
+    })
+}
+
+/// The reference that `choice` asks for, if it is there.
+pub fn reference_of(references: &[AxisEstimate], choice: TruthChoice) -> Option<&AxisEstimate> {
+    let of = |source: AxisSource| references.iter().find(|axis| axis.source == source);
+    match choice {
+        TruthChoice::Peduncle => of(AxisSource::Peduncle),
+        TruthChoice::Truth => of(AxisSource::Simulation),
+        TruthChoice::Auto => of(AxisSource::Simulation).or_else(|| of(AxisSource::Peduncle)),
+    }
+}
+
+/// An error's text as a sentence of its own.
+pub fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters
+        .next()
+        .map(|c| c.to_uppercase().collect())
+        .unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}

@@ -1,0 +1,19 @@
+//! Clouds examined: one in full, with its report, or many, one row a cloud, and what the rows say
+//! together.
+//!
+//! A cloud that cannot be read or analyzed is a row with its reason. Rows hold no times, so that a
+//! resumed run, a run in shards and an unbroken run give the same bytes.
+
+mod examine;
+mod report;
+mod row;
+mod summary;
+mod sweep;
+mod table;
+
+pub use examine::{Examined, Request, TruthChoice, examine, reference_of, sentence};
+pub use report::{AnalysisReport, SCHEMA, Timings};
+pub use row::Row;
+pub use summary::Summary;
+pub use sweep::{Sweep, SweepError, SweepSettings, sweep_cloud};
+pub use table::{TableError, csv, parquet};

@@ -1,0 +1,103 @@
+//! The error over a range of settings: u and τ, with everything else as it is.
+
+use glam::DVec3;
+
+use super::{Examined, TruthChoice, reference_of};
+use crate::geometry::{Cancelled, Watch, angle_between_lines_rad};
+use crate::method::{CandidateGrid, ParamError, Ranking, plane_terms, symmetry_axis};
+
+/// The settings to try, each with each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepSettings {
+    /// Steps of the candidate grid.
+    pub u: Vec<usize>,
+    /// Weights of the angle in centimeters per radian.
+    pub tau_cm_per_rad: Vec<f64>,
+}
+
+/// The mean error of a set of clouds for each setting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sweep {
+    /// The settings.
+    pub settings: SweepSettings,
+    sums_deg: Vec<f64>,
+    counts: Vec<usize>,
+}
+
+/// Why a cloud was not swept.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum SweepError {
+    /// A u is out of range.
+    #[error(transparent)]
+    Params(#[from] ParamError),
+    /// The work was called off.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl Sweep {
+    /// A sweep that no cloud has entered yet.
+    pub fn new(settings: SweepSettings) -> Self {
+        let cells = settings.u.len() * settings.tau_cm_per_rad.len();
+        Self {
+            settings,
+            sums_deg: vec![0.0; cells],
+            counts: vec![0; cells],
+        }
+    }
+
+    /// Adds one cloud's errors, u-major.
+    pub fn add(&mut self, errors_deg: &[Option<f64>]) {
+        let cells = self.sums_deg.iter_mut().zip(&mut self.counts);
+        for ((sum, count), error) in cells.zip(errors_deg) {
+            if let Some(error) = error {
+                *sum += error;
+                *count += 1;
+            }
+        }
+    }
+
+    /// The mean error in degrees and the number of clouds at a setting; no mean where there are none.
+    pub fn cell(&self, u: usize, tau: usize) -> (Option<f64>, usize) {
+        let i = u * self.settings.tau_cm_per_rad.len() + tau;
+        let (sum, count) = (self.sums_deg[i], self.counts[i]);
+        ((count > 0).then(|| sum / count as f64), count)
+    }
+}
+
+/// One cloud's error in degrees at each setting, u-major; `None` where there is no axis or no
+/// reference. The planes' terms are computed once for each u, and ranked anew for each τ.
+///
+/// # Errors
+/// Where a u is out of range, or the watch calls the work off.
+pub fn sweep_cloud(
+    examined: &Examined,
+    choice: TruthChoice,
+    settings: &SweepSettings,
+    watch: &dyn Watch,
+) -> Result<Vec<Option<f64>>, SweepError> {
+    let analysis = &examined.analysis;
+    let params = &analysis.params;
+    let truth = reference_of(&examined.references, choice);
+    let error_deg = |axis: DVec3| truth.map(|t| angle_between_lines_rad(axis, t.direction).to_degrees());
+    let mut errors = Vec::with_capacity(settings.u.len() * settings.tau_cm_per_rad.len());
+    for &u in &settings.u {
+        let grid = CandidateGrid::new(u)?;
+        let terms = plane_terms(
+            &analysis.surface,
+            params.unit,
+            analysis.center,
+            params.viewpoint,
+            grid,
+            watch,
+        )?;
+        for &tau in &settings.tau_cm_per_rad {
+            let ranking = Ranking::new(&terms, tau, params.aggregation, params.min_partner_fraction);
+            let axis = ranking.best().ok().and_then(|best| {
+                symmetry_axis(grid.candidate(best).normal, analysis.center, params.viewpoint).ok()
+            });
+            errors.push(axis.and_then(error_deg));
+        }
+    }
+    Ok(errors)
+}
