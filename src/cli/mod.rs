@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand.
 
 mod analyze;
+mod evaluate;
 mod options;
 mod progress;
 mod reproduce;
@@ -37,6 +38,8 @@ enum Command {
     Analyze(analyze::Analyze),
     /// Make clouds whose axis is known
     Simulate(simulate::Simulate),
+    /// Compare a folder of clouds with their references: a table, figures, the worst first
+    Evaluate(Box<evaluate::Evaluate>),
     /// Run the paper's experiments and set them beside the paper's figures
     Reproduce(reproduce::Reproduce),
     /// Print a completion script for a shell
@@ -73,6 +76,7 @@ fn run(cli: Cli) -> anyhow::Result<()> {
     match cli.command {
         Command::Analyze(analyze) => analyze::run(&analyze),
         Command::Simulate(simulate) => simulate::run(&simulate),
+        Command::Evaluate(evaluate) => evaluate::run(&evaluate),
         Command::Reproduce(reproduce) => reproduce::run(&reproduce),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -293,8 +293,13 @@ fn hue_range(text: &str) -> Result<HueRange, String> {
 pub(super) struct Depths(pub(super) Vec<f64>);
 
 pub(super) fn depths(text: &str) -> Result<Depths, String> {
+    range(text).map(Depths)
+}
+
+/// One number, or all from FROM to TO in steps of STEP (1 where it is not given). At least one.
+pub(super) fn range(text: &str) -> Result<Vec<f64>, String> {
     let Some((from, rest)) = text.split_once("..") else {
-        return Ok(Depths(vec![number(text)?]));
+        return Ok(vec![number(text)?]);
     };
     let (to, step) = rest.split_once(':').unwrap_or((rest, "1"));
     let (from, to, step) = (number(from)?, number(to)?, positive(step)?);
@@ -303,9 +308,7 @@ pub(super) fn depths(text: &str) -> Result<Depths, String> {
     if !(0.0..10_000.0).contains(&steps) {
         return Err("expected FROM..TO[:STEP] with FROM below TO".into());
     }
-    Ok(Depths(
-        (0..=steps as usize).map(|i| from + i as f64 * step).collect(),
-    ))
+    Ok((0..=steps as usize).map(|i| from + i as f64 * step).collect())
 }
 
 /// Two finite numbers with a comma between them.

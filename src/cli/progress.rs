@@ -84,3 +84,35 @@ pub(super) fn bar(template: &str) -> ProgressBar {
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::no_length().with_style(style.progress_chars("━╸─"))
 }
+
+/// A progress bar that counts finished pieces, in whatever order they finish.
+pub(super) struct CountingBar {
+    bar: ProgressBar,
+    furthest: Mutex<usize>,
+}
+
+impl CountingBar {
+    pub(super) fn new(what: &str, total: usize) -> Self {
+        let bar = bar(&format!("{what} {{wide_bar}} {{pos}}/{{len}}, {{eta}} left"));
+        bar.set_length(total as u64);
+        Self {
+            bar,
+            furthest: Mutex::default(),
+        }
+    }
+
+    pub(super) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Watch for CountingBar {
+    fn advanced(&self, done: usize, _total: usize) {
+        if let Ok(mut furthest) = self.furthest.lock()
+            && done > *furthest
+        {
+            *furthest = done;
+            self.bar.set_position(done as u64);
+        }
+    }
+}

@@ -126,6 +126,11 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadErrorKind> {
     Ok(bytes)
 }
 
+/// SHA-256 of some bytes, in 64 lowercase hexadecimal digits.
+pub fn sha256_hex(bytes: &[u8]) -> String {
+    hexadecimal(&Sha256::digest(bytes))
+}
+
 /// Two digits a byte.
 fn hexadecimal(bytes: &[u8]) -> String {
     let digit = |value: u8| {

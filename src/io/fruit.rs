@@ -53,6 +53,16 @@ pub enum FruitError {
     },
 }
 
+impl FruitError {
+    /// The cause without the file's name, for a list that names it already.
+    pub fn reason(&self) -> String {
+        match self {
+            Self::Read(error) => error.kind.to_string(),
+            Self::Peduncle { error, .. } => error.to_string(),
+        }
+    }
+}
+
 impl Fruit {
     /// Reads a cloud, settles its unit (`None`: as stated in the file, or else guessed) and finds its
     /// peduncle.

@@ -9,5 +9,5 @@ mod fruit;
 pub mod ply;
 pub mod unit_guess;
 
-pub use cloud_file::{CloudFile, ReadError, ReadErrorKind, parse_cloud, read_cloud};
+pub use cloud_file::{CloudFile, ReadError, ReadErrorKind, parse_cloud, read_cloud, sha256_hex};
 pub use fruit::{Fruit, FruitError, PeduncleChoice, companion_path, truth_path};

@@ -9,15 +9,12 @@ mod tables;
 
 use std::io::Write;
 use std::path::PathBuf;
-use std::sync::Mutex;
 
 use anyhow::Context;
-use axiscope::geometry::Watch;
 use clap::Args;
-use indicatif::ProgressBar;
 
 use super::options::{Depths, depths, grid_size};
-use super::progress;
+use super::progress::CountingBar;
 
 #[derive(Debug, Args)]
 pub(super) struct Reproduce {
@@ -47,7 +44,7 @@ pub(super) struct Reproduce {
 pub(super) fn run(args: &Reproduce) -> anyhow::Result<()> {
     std::fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
 
-    let watch = Bar::new("§ 3.1, ellipsoids", args.z0.0.len() * args.runs as usize);
+    let watch = CountingBar::new("§ 3.1, ellipsoids", args.z0.0.len() * args.runs as usize);
     let settings = ellipsoids::Settings {
         depths_cm: &args.z0.0,
         runs: args.runs as usize,
@@ -58,7 +55,7 @@ pub(super) fn run(args: &Reproduce) -> anyhow::Result<()> {
     let ellipsoids = ellipsoids::run(&settings, &watch)?;
     watch.finish();
 
-    let watch = Bar::new("§ 3.2, peppers", args.peppers as usize);
+    let watch = CountingBar::new("§ 3.2, peppers", args.peppers as usize);
     let peppers = peppers::run(args.peppers as usize, args.u, args.seed, &watch)?;
     watch.finish();
 
@@ -85,36 +82,4 @@ pub(super) fn run(args: &Reproduce) -> anyhow::Result<()> {
         args.out.display()
     );
     Ok(())
-}
-
-/// A progress bar that counts finished pieces, in whatever order they finish.
-struct Bar {
-    bar: ProgressBar,
-    furthest: Mutex<usize>,
-}
-
-impl Bar {
-    fn new(what: &str, total: usize) -> Self {
-        let bar = progress::bar(&format!("{what} {{wide_bar}} {{pos}}/{{len}}, {{eta}} left"));
-        bar.set_length(total as u64);
-        Self {
-            bar,
-            furthest: Mutex::default(),
-        }
-    }
-
-    fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-impl Watch for Bar {
-    fn advanced(&self, done: usize, _total: usize) {
-        if let Ok(mut furthest) = self.furthest.lock()
-            && done > *furthest
-        {
-            *furthest = done;
-            self.bar.set_position(done as u64);
-        }
-    }
 }

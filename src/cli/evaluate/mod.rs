@@ -1,0 +1,203 @@
+//! `axiscope evaluate`: a folder of clouds, each compared with its reference.
+
+mod figures;
+mod html;
+mod store;
+mod sweep;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use anyhow::Context;
+use axiscope::evaluate::{Row, Summary, Sweep, TruthChoice, csv, parquet};
+use axiscope::geometry::{Watch, map_pieces};
+use clap::{Args, ValueEnum};
+
+use super::options::AnalysisOptions;
+use super::progress::CountingBar;
+use store::{Store, Stored};
+use sweep::SweepOption;
+
+#[derive(Debug, Args)]
+pub(super) struct Evaluate {
+    /// The folder with the clouds (PLY)
+    folder: PathBuf,
+    /// Which reference the error is measured against
+    #[arg(long, value_enum, default_value = "auto")]
+    truth: TruthOption,
+    /// The folder for results.csv, results.parquet, summary.json, report.html and the figures
+    #[arg(short, long, value_name = "DIR", default_value = "evaluation")]
+    out: PathBuf,
+    /// Also map the mean error over settings: u=FROM..TO[:STEP] and tau=FROM..TO[:STEP], either or both
+    #[arg(long, value_name = "RANGE", num_args = 1..=2)]
+    sweep: Vec<SweepOption>,
+    /// Do only the I-th of N parts of the folder, for a job array; the parts' results join by concatenation
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Take what an earlier run into the same folder has finished, where cloud and settings are the same
+    #[arg(long)]
+    resume: bool,
+    #[command(flatten)]
+    analysis: AnalysisOptions,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum TruthOption {
+    /// The simulator's truth where there is one, else the peduncle
+    Auto,
+    /// The axis from the fruit center through the peduncle (§ 3.2)
+    Peduncle,
+    /// The axis in NAME.truth.json
+    Truth,
+}
+
+/// One of several equal parts of a list.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Shard {
+    /// From 1.
+    index: usize,
+    of: usize,
+}
+
+impl FromStr for Shard {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers = text
+            .split_once('/')
+            .and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        match numbers {
+            Some((index, of)) if (1..=of).contains(&index) => Ok(Self { index, of }),
+            _ => Err("expected I/N, with I from 1 to N"),
+        }
+    }
+}
+
+pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
+    let sweep = SweepOption::settings(&args.sweep, args.analysis.u, args.analysis.tau)?;
+    let mut clouds = clouds_in(&args.folder)?;
+    if let Some(Shard { index, of }) = args.shard {
+        clouds = clouds.into_iter().skip(index - 1).step_by(of).collect();
+    }
+    std::fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
+    let request = args.analysis.request();
+    let choice = match args.truth {
+        TruthOption::Auto => TruthChoice::Auto,
+        TruthOption::Peduncle => TruthChoice::Peduncle,
+        TruthOption::Truth => TruthChoice::Truth,
+    };
+    let store = Store::open(&args.out, &request, choice, sweep.as_ref(), args.resume)?;
+
+    let bar = CountingBar::new("Evaluating", clouds.len());
+    let stored = evaluate_all(&args.folder, &clouds, &store, &bar)?;
+    bar.finish();
+    if let Some(problem) = store.problem() {
+        eprintln!("Warning: a later --resume will not find every row: {problem}");
+    }
+
+    let rows: Vec<Row> = stored.iter().map(|s| s.row.clone()).collect();
+    let summary = Summary::of(&rows);
+    let save = |name: &str, bytes: &[u8]| {
+        let path = args.out.join(name);
+        std::fs::write(&path, bytes).with_context(|| path.display().to_string())
+    };
+    save("results.csv", &csv(&rows)?)?;
+    save("results.parquet", &parquet(&rows)?)?;
+    save(
+        "summary.json",
+        (serde_json::to_string_pretty(&summary)? + "\n").as_bytes(),
+    )?;
+    let mut figures = figures::of_rows(&rows);
+    if let Some(settings) = sweep {
+        let mut map = Sweep::new(settings);
+        for errors_deg in stored.iter().filter_map(|s| s.sweep_deg.as_ref()) {
+            map.add(errors_deg);
+        }
+        save("sweep.csv", &sweep::table(&map)?)?;
+        figures.push(("sweep", figures::of_sweep(&map)));
+    }
+    let mut drawn = Vec::new();
+    for (name, figure) in figures {
+        // A set without a single error has nothing to draw.
+        let Ok(svg) = figure.svg() else { continue };
+        save(&format!("{name}.svg"), svg.as_bytes())?;
+        save(&format!("{name}.png"), &figure.png(1.0)?)?;
+        drawn.push(svg);
+    }
+    let page = html::report(&args.folder, &request, &rows, &summary, &drawn);
+    save("report.html", page.as_bytes())?;
+    write_summary(&mut std::io::stdout().lock(), &summary)?;
+    eprintln!(
+        "Wrote results, summary, figures and report.html to {}.",
+        args.out.display()
+    );
+    Ok(())
+}
+
+/// Every cloud in the folder, by name. A companion that holds a peduncle alone is no cloud of its own.
+fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    let entries = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
+    let mut clouds = Vec::new();
+    for entry in entries {
+        let path = entry.with_context(|| folder.display().to_string())?.path();
+        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply")) && !path.is_dir() {
+            clouds.push(path);
+        }
+    }
+    let companions: Vec<PathBuf> = clouds
+        .iter()
+        .map(|path| axiscope::io::companion_path(path))
+        .collect();
+    clouds.retain(|path| !companions.contains(path));
+    clouds.sort();
+    anyhow::ensure!(
+        !clouds.is_empty(),
+        "{}: there are no PLY files in this folder",
+        folder.display()
+    );
+    Ok(clouds)
+}
+
+/// Evaluates each cloud, several at a time; the results are in the clouds' order.
+fn evaluate_all(
+    folder: &Path,
+    clouds: &[PathBuf],
+    store: &Store<'_>,
+    watch: &dyn Watch,
+) -> anyhow::Result<Vec<Stored>> {
+    let one = |path: &PathBuf| store.evaluate(&Row::name_in(folder, path), path);
+    Ok(map_pieces(clouds.len(), 1, watch, |range| {
+        one(&clouds[range.start])
+    })?)
+}
+
+fn write_summary(out: &mut impl Write, summary: &Summary) -> std::io::Result<()> {
+    let degrees = |value: Option<f64>| value.map_or("none".into(), |v| format!("{v:.2}°"));
+    let percent = |value: Option<f64>| value.map_or("none".into(), |v| format!("{:.0} %", 100.0 * v));
+    let mut row = |name: &str, value: String| writeln!(out, "{name:<16}{value}");
+    row(
+        "Clouds",
+        format!("{}, {} with an error", summary.clouds, summary.measured),
+    )?;
+    row("Mean error", degrees(summary.mean_deg))?;
+    row("Median", degrees(summary.median_deg))?;
+    row("95th percentile", degrees(summary.p95_deg))?;
+    if let Some(worst) = &summary.worst {
+        row("Worst", format!("{:.2}° ({})", worst.error_deg, worst.file))?;
+    }
+    row(
+        "Under 5/10/15°",
+        [
+            summary.share_under_5_deg,
+            summary.share_under_10_deg,
+            summary.share_under_15_deg,
+        ]
+        .map(percent)
+        .join(", "),
+    )?;
+    for (reason, count) in &summary.failures {
+        row("No error", format!("{count} × {reason}"))?;
+    }
+    Ok(())
+}

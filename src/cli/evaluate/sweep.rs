@@ -1,0 +1,90 @@
+//! `--sweep`: the settings to try, and the map of the mean error as a table.
+
+use std::str::FromStr;
+
+use axiscope::evaluate::{Sweep, SweepSettings};
+use axiscope::method::TAU_CM_PER_RAD;
+use serde::Serialize;
+
+use crate::cli::options::{grid_size, range};
+use crate::cli::usage_error;
+
+/// One range of settings.
+#[derive(Debug, Clone)]
+pub(super) enum SweepOption {
+    U(Vec<usize>),
+    Tau(Vec<f64>),
+}
+
+impl FromStr for SweepOption {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once('=') {
+            Some(("u", values)) => {
+                let whole = |u: f64| grid_size(&u.to_string());
+                Ok(Self::U(
+                    range(values)?.into_iter().map(whole).collect::<Result<_, _>>()?,
+                ))
+            }
+            Some(("tau", values)) => {
+                let values = range(values)?;
+                if values[0] < 0.0 {
+                    return Err("τ is 0 or more".into());
+                }
+                Ok(Self::Tau(values))
+            }
+            _ => Err("expected u=FROM..TO[:STEP] or tau=FROM..TO[:STEP]".into()),
+        }
+    }
+}
+
+impl SweepOption {
+    /// All settings to try; what is not swept keeps its one value. `None` where nothing is swept.
+    pub(super) fn settings(
+        options: &[Self],
+        u: usize,
+        tau: Option<f64>,
+    ) -> anyhow::Result<Option<SweepSettings>> {
+        let (mut u_range, mut tau_range) = (None, None);
+        for option in options {
+            let twice = match option {
+                Self::U(values) => u_range.replace(values.clone()).is_some(),
+                Self::Tau(values) => tau_range.replace(values.clone()).is_some(),
+            };
+            if twice {
+                return Err(usage_error("--sweep names the same setting twice"));
+            }
+        }
+        Ok((!options.is_empty()).then(|| SweepSettings {
+            u: u_range.unwrap_or_else(|| vec![u]),
+            tau_cm_per_rad: tau_range.unwrap_or_else(|| vec![tau.unwrap_or(TAU_CM_PER_RAD)]),
+        }))
+    }
+}
+
+/// One row of `sweep.csv`.
+#[derive(Serialize)]
+struct SweepRow {
+    u: usize,
+    tau_cm_per_rad: f64,
+    clouds: usize,
+    mean_error_deg: Option<f64>,
+}
+
+/// The map as CSV.
+pub(super) fn table(map: &Sweep) -> anyhow::Result<Vec<u8>> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    for (i, &u) in map.settings.u.iter().enumerate() {
+        for (j, &tau_cm_per_rad) in map.settings.tau_cm_per_rad.iter().enumerate() {
+            let (mean_error_deg, clouds) = map.cell(i, j);
+            table.serialize(SweepRow {
+                u,
+                tau_cm_per_rad,
+                clouds,
+                mean_error_deg,
+            })?;
+        }
+    }
+    Ok(table.into_inner()?)
+}
