@@ -10,4 +10,5 @@ pub mod geometry;
 pub mod io;
 pub mod method;
 pub mod reference;
+pub mod render;
 pub mod simulate;
