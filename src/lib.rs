@@ -12,3 +12,4 @@ pub mod method;
 pub mod reference;
 pub mod render;
 pub mod simulate;
+pub mod view;

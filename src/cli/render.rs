@@ -1,0 +1,428 @@
+//! `axiscope render`: the 3-D view as a picture, without a window.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use axiscope::geometry::Plane;
+use axiscope::io::{
+    Fruit, PictureSettings, encode_picture, paint_annotations, picture_settings, text_width_px,
+};
+use axiscope::method::{
+    Analysis, AxisEstimate, AxisSource, Candidate, PlaneDetail, analyze, plane_detail, symmetry_axis,
+};
+use axiscope::reference::axis_error_rad;
+use axiscope::render::{Gpu, Projection, Viewport, draw_image};
+use axiscope::view::{
+    Coloring, Overlay, Overlays, Page, SceneSettings, ShownPoints, Subject, Theme, ViewPreset, annotate,
+    build_scene, color_points, framed_points, insets,
+};
+use clap::{Args, ValueEnum};
+
+use super::options::{AnalysisOptions, positive};
+use super::progress::StageClock;
+use super::usage_error;
+
+/// What of the picture is asked for; the analysis has its own options.
+#[derive(Debug, Args)]
+pub(super) struct Render {
+    /// The point cloud (PLY); with --from, where it lies now
+    #[arg(required_unless_present = "from")]
+    cloud: Option<PathBuf>,
+    /// The PNG to write; it carries its settings
+    #[arg(short, long, value_name = "PATH")]
+    out: PathBuf,
+    /// Draw a picture again, from the settings that it carries
+    #[arg(long, value_name = "PNG", conflicts_with_all = ["Picture", "AnalysisOptions"])]
+    from: Option<PathBuf>,
+    #[command(flatten)]
+    picture: Picture,
+    #[command(flatten)]
+    analysis: AnalysisOptions,
+}
+
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Picture")]
+struct Picture {
+    /// Pixels, from 1x1 to 16384x16384
+    #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = size)]
+    size: [u32; 2],
+    /// What the points' colors show
+    #[arg(long, value_enum, default_value = "side")]
+    color: ColorOption,
+    /// The plane to look at: best, or its G,H
+    #[arg(long, value_name = "PLANE", default_value = "best", value_parser = plane_choice)]
+    plane: PlaneChoice,
+    /// Where to look from
+    #[arg(long, value_enum, default_value = "camera")]
+    view: ViewOption,
+    /// What is drawn over the points: all, none, or names with commas between them [default:
+    /// plane,center,axis,reference,legend,scale,triad,caption; others: normal,viewpoint,ghost,partners,normals]
+    #[arg(long, value_name = "LIST", value_parser = str::parse::<Overlays>)]
+    overlays: Option<Overlays>,
+    /// Light on dark, or dark on light
+    #[arg(long, value_enum, default_value = "dark")]
+    background: BackgroundOption,
+    /// A point's diameter in pixels [default: by the number of points and pixels]
+    #[arg(long, value_name = "PX", value_parser = point_size, allow_negative_numbers = true)]
+    point_size: Option<f64>,
+    /// Parallel lines stay parallel
+    #[arg(long)]
+    orthographic: bool,
+    /// No shading by depth
+    #[arg(long)]
+    flat: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+enum ColorOption {
+    /// The file's colors
+    Rgb,
+    /// The side of the plane
+    Side,
+    /// Whether a point has a visible partner, or is one
+    Partner,
+    /// d: from the reflected point to its nearest neighbor
+    Distance,
+    /// ξ: between the reflected normal and that neighbor's
+    Angle,
+    /// d + τξ
+    Score,
+    /// The normal's direction
+    Normal,
+    /// The file's labels
+    Label,
+}
+
+impl ColorOption {
+    fn coloring(self) -> Coloring {
+        match self {
+            Self::Rgb => Coloring::Rgb,
+            Self::Side => Coloring::Side,
+            Self::Partner => Coloring::Partner,
+            Self::Distance => Coloring::Distance,
+            Self::Angle => Coloring::Angle,
+            Self::Score => Coloring::Score,
+            Self::Normal => Coloring::Normal,
+            Self::Label => Coloring::Label,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum PlaneChoice {
+    Best,
+    Named { g: usize, h: usize },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+enum ViewOption {
+    /// From the viewpoint, as the depth camera saw it
+    Camera,
+    /// Along the depth axis
+    Front,
+    /// From the camera's right
+    Side,
+    /// From above
+    Top,
+    /// Along the plane's normal
+    Normal,
+    /// Along the axis
+    Axis,
+}
+
+impl ViewOption {
+    fn preset(self) -> ViewPreset {
+        match self {
+            Self::Camera => ViewPreset::Camera,
+            Self::Front => ViewPreset::Front,
+            Self::Side => ViewPreset::Side,
+            Self::Top => ViewPreset::Top,
+            Self::Normal => ViewPreset::Normal,
+            Self::Axis => ViewPreset::Axis,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+enum BackgroundOption {
+    /// For screens
+    Dark,
+    /// For print
+    Light,
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let wrong = || "expected WIDTHxHEIGHT in pixels, each from 1 to 16384".to_owned();
+    let (width, height) = text.split_once(['x', '×']).ok_or_else(wrong)?;
+    let side = |text: &str| {
+        let side = text.parse::<u32>().map_err(|_| wrong())?;
+        if (1..=axiscope::render::MAX_SIDE_PX).contains(&side) {
+            Ok(side)
+        } else {
+            Err(wrong())
+        }
+    };
+    Ok([side(width)?, side(height)?])
+}
+
+fn point_size(text: &str) -> Result<f64, String> {
+    match positive(text)? {
+        px if px <= 100.0 => Ok(px),
+        _ => Err("expected at most 100 pixels".into()),
+    }
+}
+
+fn plane_choice(text: &str) -> Result<PlaneChoice, String> {
+    if text == "best" {
+        return Ok(PlaneChoice::Best);
+    }
+    let numbers: Vec<usize> = text
+        .split(',')
+        .map(|n| n.trim().parse().map_err(|_| "expected best, or two numbers G,H"))
+        .collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [g, h] => Ok(PlaneChoice::Named { g, h }),
+        _ => Err("expected best, or two numbers G,H".into()),
+    }
+}
+
+/// Draws. `arguments` is the whole command line, `parse` reads one.
+pub(super) fn run(
+    args: &Render,
+    arguments: impl Iterator<Item = OsString>,
+    parse: impl Fn(&[String]) -> Option<Render>,
+) -> anyhow::Result<()> {
+    let png = match &args.from {
+        None => {
+            let arguments = arguments.skip(1).map(|a| a.to_string_lossy().into_owned()).collect();
+            let cloud = args.cloud.as_deref().unwrap_or(Path::new(""));
+            draw(cloud, cloud, &args.picture, &args.analysis, arguments, None)?
+        }
+        Some(figure) => {
+            let bytes = std::fs::read(figure).with_context(|| figure.display().to_string())?;
+            let settings = picture_settings(&bytes).with_context(|| figure.display().to_string())?;
+            let words = std::iter::once("axiscope".to_owned()).chain(settings.arguments.clone());
+            let words: Vec<String> = words.collect();
+            let stored = parse(&words).with_context(|| {
+                format!(
+                    "{}: its settings are of version {} and cannot be understood",
+                    figure.display(),
+                    settings.version
+                )
+            })?;
+            let named = PathBuf::from(&settings.cloud);
+            let cloud = args.cloud.as_deref().unwrap_or(&named);
+            draw(
+                cloud,
+                &named,
+                &stored.picture,
+                &stored.analysis,
+                settings.arguments,
+                Some(&settings.sha256),
+            )?
+        }
+    };
+    std::fs::write(&args.out, png).with_context(|| args.out.display().to_string())
+}
+
+/// The plane that is looked at, and what follows from it.
+struct Looked {
+    plane: Plane,
+    candidate: Candidate,
+    index: usize,
+    detail: PlaneDetail,
+    axis: Option<AxisEstimate>,
+}
+
+/// The picture as PNG bytes. `named` is what the settings call the cloud, which lies at `cloud`.
+fn draw(
+    cloud: &Path,
+    named: &Path,
+    picture: &Picture,
+    options: &AnalysisOptions,
+    arguments: Vec<String>,
+    expected_sha256: Option<&str>,
+) -> anyhow::Result<Vec<u8>> {
+    let fruit = Fruit::read(cloud, options.unit.unit(), &options.peduncle)?;
+    for warning in &fruit.warnings {
+        eprintln!("Warning: {warning}");
+    }
+    if expected_sha256.is_some_and(|hash| hash != fruit.file.sha256) {
+        eprintln!(
+            "Warning: {} has changed since the picture was drawn: this one may differ.",
+            cloud.display()
+        );
+    }
+    let params = options.params(&fruit);
+    let clock = StageClock::new();
+    let analysis = if options.without_peduncle {
+        analyze(&fruit.body(), &params, &clock)
+    } else {
+        analyze(fruit.cloud(), &params, &clock)
+    };
+    clock.finish();
+    let analysis = analysis.with_context(|| cloud.display().to_string())?;
+    for warning in &analysis.warnings {
+        eprintln!("Warning: {warning}.");
+    }
+    let looked = looked_at(&analysis, picture.plane)?;
+    let reference = fruit
+        .peduncle
+        .as_ref()
+        .and_then(|p| p.reference_axis(analysis.center).ok());
+    let shown = ShownPoints::new(fruit.cloud(), &analysis);
+    let subject = Subject {
+        shown: &shown,
+        analysis: &analysis,
+        detail: looked.as_ref().map(|l| &l.detail),
+    };
+    let colored = color_points(subject, picture.color.coloring()).with_context(|| cloud.display().to_string())?;
+
+    let overlays = picture.overlays.clone().unwrap_or_default();
+    let has = |overlay| overlays.has(overlay);
+    let axis = looked.as_ref().and_then(|l| l.axis.as_ref());
+    let theme = match picture.background {
+        BackgroundOption::Dark => Theme::Dark,
+        BackgroundOption::Light => Theme::Light,
+    };
+    let settings = SceneSettings {
+        overlays: &overlays,
+        theme,
+        point_size_px: picture
+            .point_size
+            .unwrap_or_else(|| default_point_size(shown.len(), picture.size)) as f32,
+        eye_dome_strength: if picture.flat { 0.0 } else { 1.0 },
+        plane: looked.as_ref().map(|l| l.plane),
+        axis,
+        reference: reference.as_ref(),
+    };
+    let scene = build_scene(subject, &colored, &settings);
+
+    let caption = caption(named, &analysis, looked.as_ref(), reference.as_ref());
+    let both = axis.zip(reference.as_ref()).filter(|_| has(Overlay::Axis) && has(Overlay::Reference));
+    let angle = both.map(|(axis, reference)| {
+        let text = format!("{:.1}° apart", axis_error_rad(axis, reference).to_degrees());
+        let upward = if axis.direction.y > 0.0 { -axis.direction } else { axis.direction };
+        let reach = 1.1 * scene.eye_dome.scale;
+        (axis.origin + f64::from(reach) * upward, text)
+    });
+    let [width, height] = picture.size;
+    let viewport = Viewport::new(width.into(), height.into());
+    let page = Page {
+        viewport,
+        theme,
+        legend: has(Overlay::Legend).then_some(&colored.legend),
+        scale_unit: has(Overlay::Scale).then(|| fruit.unit.symbol()),
+        has_triad: has(Overlay::Triad),
+        caption: if has(Overlay::Caption) { &caption } else { &[] },
+        label: angle.as_ref().map(|(place, text)| (*place, text.as_str())),
+    };
+    let preset = picture.view.preset();
+    let direction = match preset {
+        ViewPreset::Normal => Some(looked.as_ref().context("there is no plane to look along the normal of")?.plane.normal),
+        ViewPreset::Axis => Some(axis.context("there is no axis to look along")?.direction),
+        _ => None,
+    };
+    let projection = if picture.orthographic {
+        Projection::Orthographic
+    } else {
+        Projection::Perspective
+    };
+    let camera = preset.camera(
+        &framed_points(subject, &settings),
+        params.viewpoint,
+        direction.unwrap_or_default(),
+        projection,
+        viewport,
+        insets(&page, &text_width_px),
+    );
+    let mut image = draw_image(&Gpu::headless()?, &scene, &camera, width, height)?;
+    paint_annotations(&mut image, &annotate(&page, &camera, &text_width_px))?;
+    Ok(encode_picture(
+        &image,
+        &PictureSettings {
+            version: env!("CARGO_PKG_VERSION").into(),
+            arguments,
+            cloud: named.display().to_string(),
+            sha256: fruit.file.sha256.clone(),
+        },
+    )?)
+}
+
+fn looked_at(analysis: &Analysis, choice: PlaneChoice) -> anyhow::Result<Option<Looked>> {
+    let grid = analysis.planes.grid;
+    let index = match choice {
+        PlaneChoice::Best => match analysis.ranking.best() {
+            Ok(index) => index,
+            // Why there is none, a warning has told.
+            Err(_) => return Ok(None),
+        },
+        PlaneChoice::Named { g, h } => grid.index_of(g, h).ok_or_else(|| {
+            usage_error(&format!(
+                "there is no plane {g},{h}: both numbers run from 1 to {}",
+                grid.u()
+            ))
+        })?,
+    };
+    let candidate = grid.candidate(index);
+    let (center, params) = (analysis.center, &analysis.params);
+    let plane = Plane {
+        point: center,
+        normal: candidate.normal,
+    };
+    let axis = symmetry_axis(candidate.normal, center, params.viewpoint).ok();
+    Ok(Some(Looked {
+        plane,
+        candidate,
+        index,
+        detail: plane_detail(&analysis.surface, params.unit, plane, params.viewpoint, &())?,
+        axis: axis.map(|direction| AxisEstimate {
+            source: AxisSource::SymmetryPlane,
+            origin: center,
+            direction,
+            confidence: None,
+        }),
+    }))
+}
+
+/// So large that the points of a fruit close up to a surface, within reason.
+fn default_point_size(points: usize, [width, height]: [u32; 2]) -> f64 {
+    let fruit_px = 0.2 * f64::from(width) * f64::from(height);
+    (1.5 * (fruit_px / points.max(1) as f64).sqrt()).clamp(2.0, 12.0)
+}
+
+/// The cloud and how it was read; the plane and what came of it.
+fn caption(
+    cloud: &Path,
+    analysis: &Analysis,
+    looked: Option<&Looked>,
+    reference: Option<&AxisEstimate>,
+) -> Vec<String> {
+    let name = cloud.file_name().unwrap_or_default().to_string_lossy();
+    let u = analysis.planes.grid.u();
+    let first = format!(
+        "{name} · {} points used · preset {} · {u} × {u} planes",
+        analysis.surface.len(),
+        analysis.params.preset_name()
+    );
+    let Some(looked) = looked else {
+        return vec![first, "no symmetry plane".into()];
+    };
+    let Candidate { g, h, .. } = looked.candidate;
+    let rank = analysis.ranking.order().iter().position(|&i| i == looked.index);
+    let score = match (rank, analysis.ranking.scores_cm()[looked.index]) {
+        (Some(0), Some(score)) => format!("the best, score {score:.4} cm"),
+        (Some(rank), Some(score)) => format!("rank {}, score {score:.4} cm", rank + 1),
+        _ => "too few partners for a score".into(),
+    };
+    let error = match (&looked.axis, reference) {
+        (Some(axis), Some(reference)) => {
+            let degrees = axis_error_rad(axis, reference).to_degrees();
+            format!("axis {degrees:.1}° off the reference")
+        }
+        (Some(_), None) => "no reference".into(),
+        (None, _) => "no axis".into(),
+    };
+    vec![first, format!("plane g {g}, h {h}: {score} · {error}")]
+}
