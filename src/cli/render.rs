@@ -195,7 +195,10 @@ pub(super) fn run(
 ) -> anyhow::Result<()> {
     let png = match &args.from {
         None => {
-            let arguments = arguments.skip(1).map(|a| a.to_string_lossy().into_owned()).collect();
+            let arguments = arguments
+                .skip(1)
+                .map(|a| a.to_string_lossy().into_owned())
+                .collect();
             let cloud = args.cloud.as_deref().unwrap_or(Path::new(""));
             draw(cloud, cloud, &args.picture, &args.analysis, arguments, None)?
         }
@@ -244,28 +247,7 @@ fn draw(
     arguments: Vec<String>,
     expected_sha256: Option<&str>,
 ) -> anyhow::Result<Vec<u8>> {
-    let fruit = Fruit::read(cloud, options.unit.unit(), &options.peduncle)?;
-    for warning in &fruit.warnings {
-        eprintln!("Warning: {warning}");
-    }
-    if expected_sha256.is_some_and(|hash| hash != fruit.file.sha256) {
-        eprintln!(
-            "Warning: {} has changed since the picture was drawn: this one may differ.",
-            cloud.display()
-        );
-    }
-    let params = options.params(&fruit);
-    let clock = StageClock::new();
-    let analysis = if options.without_peduncle {
-        analyze(&fruit.body(), &params, &clock)
-    } else {
-        analyze(fruit.cloud(), &params, &clock)
-    };
-    clock.finish();
-    let analysis = analysis.with_context(|| cloud.display().to_string())?;
-    for warning in &analysis.warnings {
-        eprintln!("Warning: {warning}.");
-    }
+    let (fruit, analysis) = analyzed(cloud, options, expected_sha256)?;
     let looked = looked_at(&analysis, picture.plane)?;
     let reference = fruit
         .peduncle
@@ -277,7 +259,8 @@ fn draw(
         analysis: &analysis,
         detail: looked.as_ref().map(|l| &l.detail),
     };
-    let colored = color_points(subject, picture.color.coloring()).with_context(|| cloud.display().to_string())?;
+    let colored =
+        color_points(subject, picture.color.coloring()).with_context(|| cloud.display().to_string())?;
 
     let overlays = picture.overlays.clone().unwrap_or_default();
     let has = |overlay| overlays.has(overlay);
@@ -300,12 +283,19 @@ fn draw(
     let scene = build_scene(subject, &colored, &settings);
 
     let caption = caption(named, &analysis, looked.as_ref(), reference.as_ref());
-    let both = axis.zip(reference.as_ref()).filter(|_| has(Overlay::Axis) && has(Overlay::Reference));
+    let both = axis
+        .zip(reference.as_ref())
+        .filter(|_| has(Overlay::Axis) && has(Overlay::Reference));
     let angle = both.map(|(axis, reference)| {
         let text = format!("{:.1}° apart", axis_error_rad(axis, reference).to_degrees());
-        let upward = if axis.direction.y > 0.0 { -axis.direction } else { axis.direction };
-        let reach = 1.1 * scene.eye_dome.scale;
-        (axis.origin + f64::from(reach) * upward, text)
+        let upward = if axis.direction.y > 0.0 {
+            -axis.direction
+        } else {
+            axis.direction
+        };
+        // Where the drawn line ends: 0.62 of the fruit's size, which is twice the shading's length.
+        let reach = 1.24 * f64::from(scene.eye_dome.scale);
+        (axis.origin + reach * upward, text)
     });
     let [width, height] = picture.size;
     let viewport = Viewport::new(width.into(), height.into());
@@ -320,7 +310,13 @@ fn draw(
     };
     let preset = picture.view.preset();
     let direction = match preset {
-        ViewPreset::Normal => Some(looked.as_ref().context("there is no plane to look along the normal of")?.plane.normal),
+        ViewPreset::Normal => Some(
+            looked
+                .as_ref()
+                .context("there is no plane to look along the normal of")?
+                .plane
+                .normal,
+        ),
         ViewPreset::Axis => Some(axis.context("there is no axis to look along")?.direction),
         _ => None,
     };
@@ -331,7 +327,7 @@ fn draw(
     };
     let camera = preset.camera(
         &framed_points(subject, &settings),
-        params.viewpoint,
+        analysis.params.viewpoint,
         direction.unwrap_or_default(),
         projection,
         viewport,
@@ -348,6 +344,37 @@ fn draw(
             sha256: fruit.file.sha256.clone(),
         },
     )?)
+}
+
+/// The fruit and its analysis; warnings go to standard error.
+fn analyzed(
+    cloud: &Path,
+    options: &AnalysisOptions,
+    expected_sha256: Option<&str>,
+) -> anyhow::Result<(Fruit, Analysis)> {
+    let fruit = Fruit::read(cloud, options.unit.unit(), &options.peduncle)?;
+    for warning in &fruit.warnings {
+        eprintln!("Warning: {warning}");
+    }
+    if expected_sha256.is_some_and(|hash| hash != fruit.file.sha256) {
+        eprintln!(
+            "Warning: {} has changed since the picture was drawn: this one may differ.",
+            cloud.display()
+        );
+    }
+    let params = options.params(&fruit);
+    let clock = StageClock::new();
+    let analysis = if options.without_peduncle {
+        analyze(&fruit.body(), &params, &clock)
+    } else {
+        analyze(fruit.cloud(), &params, &clock)
+    };
+    clock.finish();
+    let analysis = analysis.with_context(|| cloud.display().to_string())?;
+    for warning in &analysis.warnings {
+        eprintln!("Warning: {warning}.");
+    }
+    Ok((fruit, analysis))
 }
 
 fn looked_at(analysis: &Analysis, choice: PlaneChoice) -> anyhow::Result<Option<Looked>> {
@@ -389,7 +416,7 @@ fn looked_at(analysis: &Analysis, choice: PlaneChoice) -> anyhow::Result<Option<
 /// So large that the points of a fruit close up to a surface, within reason.
 fn default_point_size(points: usize, [width, height]: [u32; 2]) -> f64 {
     let fruit_px = 0.2 * f64::from(width) * f64::from(height);
-    (1.5 * (fruit_px / points.max(1) as f64).sqrt()).clamp(2.0, 12.0)
+    (1.7 * (fruit_px / points.max(1) as f64).sqrt()).clamp(2.0, 12.0)
 }
 
 /// The cloud and how it was read; the plane and what came of it.

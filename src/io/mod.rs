@@ -14,6 +14,7 @@ pub mod unit_guess;
 pub use cloud_file::{CloudFile, ReadError, ReadErrorKind, parse_cloud, read_cloud};
 pub use fruit::{Fruit, FruitError, PeduncleChoice, companion_path};
 pub use picture::{
-    PictureError, PictureSettings, SETTINGS_KEY, encode_picture, paint_annotations, picture_settings, text_width_px,
+    PictureError, PictureSettings, SETTINGS_KEY, encode_picture, paint_annotations, picture_settings,
+    text_width_px,
 };
 pub use report::{AnalysisReport, Request, SCHEMA, Timings};

@@ -39,7 +39,9 @@ pub enum PictureError {
     #[error("this is no PNG file: {0}")]
     Decode(#[from] png::DecodingError),
     /// The PNG was not drawn by this program.
-    #[error("this PNG carries no settings: it was not drawn by `axiscope render`, or they were removed since")]
+    #[error(
+        "this PNG carries no settings: it was not drawn by `axiscope render`, or they were removed since"
+    )]
     NoSettings,
     /// The settings cannot be understood.
     #[error("the settings in this PNG cannot be read: {0}")]
@@ -85,7 +87,11 @@ pub fn encode_picture(image: &Image, settings: &PictureSettings) -> Result<Vec<u
     encoder.set_depth(png::BitDepth::Eight);
     // International text: names of files may hold any letter.
     encoder.add_itxt_chunk(SETTINGS_KEY.to_owned(), serde_json::to_string(settings)?)?;
-    let rgb: Vec<u8> = image.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    let rgb: Vec<u8> = image
+        .rgba
+        .chunks_exact(4)
+        .flat_map(|p| [p[0], p[1], p[2]])
+        .collect();
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&rgb)?;
     writer.finish()?;
@@ -101,7 +107,10 @@ pub fn picture_settings(png_bytes: &[u8]) -> Result<PictureSettings, PictureErro
     // Other programs may put the text behind the pixels.
     reader.finish()?;
     let chunks = &reader.info().utf8_text;
-    let chunk = chunks.iter().find(|c| c.keyword == SETTINGS_KEY).ok_or(PictureError::NoSettings)?;
+    let chunk = chunks
+        .iter()
+        .find(|c| c.keyword == SETTINGS_KEY)
+        .ok_or(PictureError::NoSettings)?;
     Ok(serde_json::from_str(&chunk.get_text()?)?)
 }
 

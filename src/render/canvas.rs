@@ -2,6 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::DMat4;
+use wgpu::BindingResource;
 
 use super::pipelines::{COLOR, DEPTH};
 use super::uploads::{GrowingBuffer, LineInstance, PointsUpload, triangles};
@@ -53,7 +54,10 @@ impl Canvas {
 
     /// Draws the scene into the canvas, `width_px` × `height_px` pixels of which each is the mean of
     /// `oversampling` ² drawn ones (1 or 2). Submits nothing: that is the encoder's owner's.
-    #[expect(clippy::too_many_arguments, reason = "what a window's paint callback hands over, and what to draw")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "what a window's paint callback hands over, and what to draw"
+    )]
     pub fn draw(
         &mut self,
         renderer: &Renderer,
@@ -76,7 +80,12 @@ impl Canvas {
             return;
         };
         {
-            let mut pass = begin(encoder, "points", &targets.points_color, Some((&targets.depth, true)));
+            let mut pass = begin(
+                encoder,
+                "points",
+                &targets.points_color,
+                Some((&targets.depth, true)),
+            );
             pass.set_bind_group(0, view, &[]);
             self.draw_points(renderer, &mut pass, scene.max_points);
         }
@@ -87,7 +96,12 @@ impl Canvas {
             pass.set_pipeline(&renderer.shading);
             pass.draw(0..3, 0..1);
         }
-        let mut pass = begin(encoder, "overlays", &targets.picture, Some((&targets.depth, false)));
+        let mut pass = begin(
+            encoder,
+            "overlays",
+            &targets.picture,
+            Some((&targets.depth, false)),
+        );
         pass.set_bind_group(0, view, &[]);
         // What points hide, faintly; then the lines, which hide the planes behind them; then planes.
         if let (Some(buffer), 1..) = (self.lines.get(), scene.lines.len() as u32) {
@@ -127,7 +141,8 @@ impl Canvas {
             for chunk in &cloud.chunks {
                 let count = chunk.count.min(left);
                 left -= count;
-                if let (Some(positions), Some(colors), 1..) = (chunk.positions.get(), chunk.colors.get(), count)
+                if let (Some(positions), Some(colors), 1..) =
+                    (chunk.positions.get(), chunk.colors.get(), count)
                 {
                     pass.set_vertex_buffer(0, positions.slice(..));
                     pass.set_vertex_buffer(1, colors.slice(..));
@@ -160,12 +175,14 @@ impl Canvas {
         );
         if self.lines_state != Some(state) {
             let lines: Vec<LineInstance> = scene.lines.iter().map(|l| LineInstance::new(l, origin)).collect();
-            self.lines.write(device, queue, "lines", bytemuck::cast_slice(&lines));
+            self.lines
+                .write(device, queue, "lines", bytemuck::cast_slice(&lines));
             self.lines_state = Some(state);
         }
         // Few, and their order hangs on the camera.
         let planes = triangles(&scene.polygons, origin, camera.forward_in_world());
-        self.planes.write(device, queue, "planes", bytemuck::cast_slice(&planes));
+        self.planes
+            .write(device, queue, "planes", bytemuck::cast_slice(&planes));
     }
 
     #[expect(clippy::too_many_arguments, reason = "as `draw`, whose part it is")]
@@ -256,18 +273,17 @@ impl Targets {
                 ],
             })
         };
-        use wgpu::BindingResource::{Sampler, TextureView};
         let shading_group = group(
             "shading",
             &renderer.shading_layout,
-            TextureView(&points_color),
-            TextureView(&depth),
+            BindingResource::TextureView(&points_color),
+            BindingResource::TextureView(&depth),
         );
         let composite_group = group(
             "composite",
             &renderer.composite_layout,
-            TextureView(&picture),
-            Sampler(&renderer.sampler),
+            BindingResource::TextureView(&picture),
+            BindingResource::Sampler(&renderer.sampler),
         );
         Self {
             size_px,
@@ -308,7 +324,11 @@ fn begin<'a>(
             view,
             depth_ops: Some(wgpu::Operations {
                 // Reversed depth: zero is farthest.
-                load: if fresh { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load },
+                load: if fresh {
+                    wgpu::LoadOp::Clear(0.0)
+                } else {
+                    wgpu::LoadOp::Load
+                },
                 store: wgpu::StoreOp::Store,
             }),
             stencil_ops: None,

@@ -28,12 +28,7 @@ struct ViewBox {
 impl Camera {
     /// A camera that sees in `forward_in_world`, with `up_in_world` upward, at `target_in_world` from
     /// `distance`: front, side, top, along a normal or along an axis.
-    pub fn along(
-        forward_in_world: DVec3,
-        up_in_world: DVec3,
-        target_in_world: DVec3,
-        distance: f64,
-    ) -> Self {
+    pub fn along(forward_in_world: DVec3, up_in_world: DVec3, target_in_world: DVec3, distance: f64) -> Self {
         let forward = forward_in_world.try_normalize().unwrap_or(DVec3::Z);
         Self::looking_at(target_in_world - distance * forward, target_in_world, up_in_world)
     }
@@ -41,7 +36,13 @@ impl Camera {
     /// The corners of a box, which frame it when they are all in the picture.
     pub fn corners(extent: &Extent) -> [DVec3; 8] {
         std::array::from_fn(|i| {
-            let pick = |axis: usize| if i >> axis & 1 == 0 { extent.min[axis] } else { extent.max[axis] };
+            let pick = |axis: usize| {
+                if i >> axis & 1 == 0 {
+                    extent.min[axis]
+                } else {
+                    extent.max[axis]
+                }
+            };
             DVec3::new(pick(0), pick(1), pick(2))
         })
     }

@@ -7,7 +7,9 @@ use super::{Camera, Canvas, Gpu, Image, MAX_SIDE_PX, Scene};
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DrawError {
     /// A side is zero or too long.
-    #[error("a picture of {width_px} × {height_px} pixels cannot be drawn here: each side must have 1 to {most} pixels")]
+    #[error(
+        "a picture of {width_px} × {height_px} pixels cannot be drawn here: each side must have 1 to {most} pixels"
+    )]
     Size {
         /// Pixels a row.
         width_px: u32,
@@ -25,7 +27,13 @@ pub enum DrawError {
 ///
 /// # Errors
 /// Where the size is out of range or the adapter fails.
-pub fn draw_image(gpu: &Gpu, scene: &Scene, camera: &Camera, width_px: u32, height_px: u32) -> Result<Image, DrawError> {
+pub fn draw_image(
+    gpu: &Gpu,
+    scene: &Scene,
+    camera: &Camera,
+    width_px: u32,
+    height_px: u32,
+) -> Result<Image, DrawError> {
     let largest = gpu.device.limits().max_texture_dimension_2d;
     let most = largest.min(MAX_SIDE_PX);
     if !(1..=most).contains(&width_px) || !(1..=most).contains(&height_px) {
@@ -37,7 +45,11 @@ pub fn draw_image(gpu: &Gpu, scene: &Scene, camera: &Camera, width_px: u32, heig
     }
     // Beyond some 8 million pixels nobody sees the steps, and memory runs short.
     let small = u64::from(width_px) * u64::from(height_px) <= 8 << 20;
-    let oversampling = if small && 2 * width_px.max(height_px) <= largest { 2 } else { 1 };
+    let oversampling = if small && 2 * width_px.max(height_px) <= largest {
+        2
+    } else {
+        1
+    };
 
     let out_of_memory = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let invalid = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -56,7 +68,9 @@ pub fn draw_image(gpu: &Gpu, scene: &Scene, camera: &Camera, width_px: u32, heig
         view_formats: &[],
     });
     let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let mut encoder = gpu
+        .device
+        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut canvas = Canvas::new();
     canvas.draw(
         &gpu.renderer,
@@ -85,7 +99,10 @@ pub fn draw_image(gpu: &Gpu, scene: &Scene, camera: &Camera, width_px: u32, heig
         canvas.composite(&gpu.renderer, &mut pass);
     }
     let rgba = read_back(gpu, encoder, &texture, width_px, height_px);
-    let errors = [pollster::block_on(invalid.pop()), pollster::block_on(out_of_memory.pop())];
+    let errors = [
+        pollster::block_on(invalid.pop()),
+        pollster::block_on(out_of_memory.pop()),
+    ];
     if let Some(error) = errors.into_iter().flatten().next() {
         return Err(DrawError::Failed(error.to_string()));
     }

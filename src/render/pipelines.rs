@@ -66,27 +66,7 @@ impl Renderer {
         let uniform = |label| layout(device, label, &[uniform_entry()]);
         let view_layout = uniform("view");
         let look_layout = uniform("points look");
-        let shading_layout = layout(
-            device,
-            "shading",
-            &[
-                texture_entry(0, wgpu::TextureSampleType::Float { filterable: false }),
-                texture_entry(1, wgpu::TextureSampleType::Depth),
-            ],
-        );
-        let composite_layout = layout(
-            device,
-            "composite",
-            &[
-                texture_entry(0, wgpu::TextureSampleType::Float { filterable: true }),
-                wgpu::BindGroupLayoutEntry {
-                    binding: 1,
-                    visibility: wgpu::ShaderStages::FRAGMENT,
-                    ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-                    count: None,
-                },
-            ],
-        );
+        let (shading_layout, composite_layout) = (shading_layout(device), composite_layout(device));
         let make = |recipe: Recipe<'_>| pipeline(device, &view_layout, &recipe);
         let shader = |name| SHADERS.iter().find(|s| s.0 == name).map_or("", |s| s.1);
         let points = make(Recipe {
@@ -178,6 +158,35 @@ impl Renderer {
             sampler,
         }
     }
+}
+
+/// What the shading pass reads.
+fn shading_layout(device: &wgpu::Device) -> BindGroupLayout {
+    layout(
+        device,
+        "shading",
+        &[
+            texture_entry(0, wgpu::TextureSampleType::Float { filterable: false }),
+            texture_entry(1, wgpu::TextureSampleType::Depth),
+        ],
+    )
+}
+
+/// What compositing reads.
+fn composite_layout(device: &wgpu::Device) -> BindGroupLayout {
+    layout(
+        device,
+        "composite",
+        &[
+            texture_entry(0, wgpu::TextureSampleType::Float { filterable: true }),
+            wgpu::BindGroupLayoutEntry {
+                binding: 1,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+                count: None,
+            },
+        ],
+    )
 }
 
 fn per_instance(stride: u64, attributes: &[VertexAttribute]) -> VertexBufferLayout<'_> {

@@ -109,7 +109,10 @@ impl Line {
     /// The line shining through what hides it.
     #[must_use]
     pub fn shining_through(self, hidden_opacity: f32) -> Self {
-        Self { hidden_opacity, ..self }
+        Self {
+            hidden_opacity,
+            ..self
+        }
     }
 }
 
@@ -189,9 +192,16 @@ impl Scene {
     /// Sets the bounds to what is in the scene. Walks over all points: for when data has changed.
     pub fn fit_bounds(&mut self) {
         let origin = self.origin_in_world;
-        let points = self.points.iter().flat_map(|p| &p.positions).map(|p| origin + p.as_dvec3());
+        let points = self
+            .points
+            .iter()
+            .flat_map(|p| &p.positions)
+            .map(|p| origin + p.as_dvec3());
         let lines = self.lines.iter().flat_map(|l| [l.from_in_world, l.to_in_world]);
-        let corners = self.polygons.iter().flat_map(|p| p.corners_in_world.iter().copied());
+        let corners = self
+            .polygons
+            .iter()
+            .flat_map(|p| p.corners_in_world.iter().copied());
         let mut extent: Option<Extent> = None;
         for p in points.chain(lines).chain(corners).filter(|p| p.is_finite()) {
             let e = extent.get_or_insert(Extent { min: p, max: p });

@@ -50,7 +50,8 @@ pub(super) struct PlaneVertex {
 /// that order.
 pub(super) fn triangles(polygons: &[Polygon], origin_in_world: DVec3, forward: DVec3) -> Vec<PlaneVertex> {
     let depth = |p: &Polygon| {
-        p.corners_in_world.iter().map(|c| c.dot(forward)).sum::<f64>() / p.corners_in_world.len().max(1) as f64
+        p.corners_in_world.iter().map(|c| c.dot(forward)).sum::<f64>()
+            / p.corners_in_world.len().max(1) as f64
     };
     let mut sorted: Vec<&Polygon> = polygons.iter().collect();
     sorted.sort_by(|a, b| depth(b).total_cmp(&depth(a)));
@@ -144,7 +145,11 @@ impl PointsUpload {
 
     /// Sends what has changed. No work is done a point where nothing has.
     pub(super) fn update(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, points: &Points) {
-        queue.write_buffer(&self.look, 0, bytemuck::cast_slice(&[points.size_px, 0.0, 0.0, 0.0]));
+        queue.write_buffer(
+            &self.look,
+            0,
+            bytemuck::cast_slice(&[points.size_px, 0.0, 0.0, 0.0]),
+        );
         let count = points.positions.len().min(points.colors.len());
         let new_positions =
             self.positions_generation != Some(points.positions_generation) || self.count != count;
@@ -169,11 +174,15 @@ impl PointsUpload {
             if new_positions {
                 let positions: Vec<Vec3> = range.clone().map(|i| points.positions[order(i)]).collect();
                 let flat: Vec<[f32; 3]> = positions.iter().map(Vec3::to_array).collect();
-                chunk.positions.write(device, queue, "positions", bytemuck::cast_slice(&flat));
+                chunk
+                    .positions
+                    .write(device, queue, "positions", bytemuck::cast_slice(&flat));
             }
             if new_colors {
                 let colors: Vec<Color> = range.map(|i| points.colors[order(i)]).collect();
-                chunk.colors.write(device, queue, "colors", bytemuck::cast_slice(&colors));
+                chunk
+                    .colors
+                    .write(device, queue, "colors", bytemuck::cast_slice(&colors));
             }
         }
         self.count = count;

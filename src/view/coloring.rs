@@ -148,16 +148,14 @@ fn by_category(
     let shown = subject.shown;
     let mut counts = vec![0; categories.len()];
     let mut unused = 0;
-    let colors = shown.in_surface.iter().map(|place| match place {
-        Some(i) => {
-            let category = category_of(*i);
-            counts[category] += 1;
-            categories[category].0
-        }
-        None => {
+    let colors = shown.in_surface.iter().map(|place| {
+        let Some(i) = place else {
             unused += 1;
-            NEUTRAL
-        }
+            return NEUTRAL;
+        };
+        let category = category_of(*i);
+        counts[category] += 1;
+        categories[category].0
     });
     let colors = colors.collect();
     let mut swatches: Vec<Swatch> = categories
@@ -192,11 +190,7 @@ fn by_partner(subject: Subject<'_>, detail: &PlaneDetail) -> Colored {
     for partner in detail.points.iter().filter_map(|p| p.partner) {
         is_partner[partner.index] = true;
     }
-    let categories = [
-        (BLUE, "has one"),
-        (ORANGE, "only is one"),
-        (PINK, "neither"),
-    ];
+    let categories = [(BLUE, "has one"), (ORANGE, "only is one"), (PINK, "neither")];
     by_category(subject, "Visible symmetric partner", &categories, |i| {
         match (detail.points[i].partner, is_partner[i]) {
             (Some(_), _) => 0,
@@ -220,18 +214,16 @@ fn by_value(
         n => values[((RAMP_SHARE * n as f64).ceil() as usize).clamp(1, n) - 1],
     };
     let (mut without, mut unused) = (0, 0);
-    let colors = shown.in_surface.iter().map(|place| match place {
-        Some(i) => match value_of(&detail.points[*i]) {
-            Some(value) => value_color(if high > 0.0 { value / high } else { 0.0 }),
-            None => {
-                without += 1;
-                VALUELESS
-            }
-        },
-        None => {
+    let colors = shown.in_surface.iter().map(|place| {
+        let Some(i) = place else {
             unused += 1;
-            NEUTRAL
-        }
+            return NEUTRAL;
+        };
+        let Some(value) = value_of(&detail.points[*i]) else {
+            without += 1;
+            return VALUELESS;
+        };
+        value_color(if high > 0.0 { value / high } else { 0.0 })
     });
     let colors = colors.collect();
     let mut swatches = Vec::new();
@@ -271,7 +263,7 @@ fn ticks(high: f64) -> Vec<(f64, String)> {
     let mut ticks: Vec<(f64, String)> = (0..=4)
         .map(|i| f64::from(i) * step)
         // Too near to the upper end they would stand on each other.
-        .filter(|v| *v < 0.85 * high)
+        .filter(|v| *v < 0.78 * high)
         .map(|v| (v / high, digits(v, high)))
         .collect();
     ticks.push((1.0, digits(high, high)));

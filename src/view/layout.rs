@@ -57,7 +57,9 @@ impl Page<'_> {
         let texts = legend.swatches.iter().map(|s| swatch + measure(&s.text(), size));
         let notes = legend.notes.iter().map(|n| measure(n, 0.85 * size));
         let ramp = legend.ramp.as_ref().map_or(0.0, |_| 13.0 * size);
-        let widest = texts.chain(notes).fold(measure(&legend.title, size).max(ramp), f64::max);
+        let widest = texts
+            .chain(notes)
+            .fold(measure(&legend.title, size).max(ramp), f64::max);
         // At most half of the picture, whatever the texts say.
         widest.min(0.5 * self.viewport.width_px - 3.0 * self.margin_px())
     }
@@ -69,7 +71,11 @@ pub fn insets(page: &Page<'_>, measure: Measure<'_>) -> Insets {
     let legend = page.legend_width_px(measure);
     Insets {
         left_px: margin,
-        right_px: if legend > 0.0 { legend + 3.0 * margin } else { margin },
+        right_px: if legend > 0.0 {
+            legend + 3.0 * margin
+        } else {
+            margin
+        },
         top_px: margin + if page.label.is_some() { page.line_px() } else { 0.0 },
         bottom_px: margin + page.caption_height_px() + if page.caption.is_empty() { 0.0 } else { margin },
     }
@@ -132,7 +138,11 @@ fn caption(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) {
             at: DVec2::new(margin, top + page.line_px() * (i as f64 + 0.8)),
             anchor: Anchor::Start,
             size_px: size,
-            color: if i == 0 { page.theme.ink() } else { page.theme.quiet_ink() },
+            color: if i == 0 {
+                page.theme.ink()
+            } else {
+                page.theme.quiet_ink()
+            },
             halo: Some(page.theme.paper()),
             text: shortened(line, size, room, measure),
         });
@@ -149,7 +159,10 @@ fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) -> A
     let lines = 1.0 + ramp_lines + (legend.swatches.len() + legend.notes.len()) as f64;
     let area = Area {
         min: DVec2::new(left - 0.8 * margin, margin),
-        max: DVec2::new(page.viewport.width_px - margin, 1.8 * margin + lines * line + 0.4 * margin),
+        max: DVec2::new(
+            page.viewport.width_px - margin,
+            1.8 * margin + lines * line + 0.4 * margin,
+        ),
     };
     out.push(Annotation::Box {
         min: area.min,
@@ -176,7 +189,16 @@ fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) -> A
             max: DVec2::new(left + width, y + line),
             stops: ramp.stops.clone(),
         });
+        let high_width = ramp
+            .ticks
+            .last()
+            .map_or(0.0, |(_, tick)| measure(tick, 0.9 * size));
         for (place, tick) in &ramp.ticks {
+            // One that would run into the upper end's is left out: that one matters more.
+            let reaches = place * width + 0.5 * measure(tick, 0.9 * size) + 0.4 * size;
+            if *place < 1.0 && reaches > width - high_width {
+                continue;
+            }
             let x = left + place * width;
             let anchor = match *place {
                 p if p <= 0.0 => Anchor::Start,
@@ -311,7 +333,10 @@ fn scale_bar(
 }
 
 /// A text beside a point, moved to where it covers nothing else and nothing cuts it off.
-#[expect(clippy::too_many_arguments, reason = "the page, a text with its place, and what is there already")]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "the page, a text with its place, and what is there already"
+)]
 fn label(
     page: &Page<'_>,
     camera: &Camera,
@@ -330,7 +355,13 @@ fn label(
     let half = DVec2::new(0.5 * width, 0.5 * height);
     let low = half + 0.5 * margin;
     let high = DVec2::new(page.viewport.width_px, bottom) - half - 0.5 * margin;
+    // First beyond the axis' end, where the axis itself is not covered.
+    let pivot = camera
+        .project(camera.pivot_in_world, page.viewport)
+        .unwrap_or(place);
+    let away = (place - pivot).normalize_or_zero();
     let near = [
+        away * (half + 0.6 * size),
         DVec2::new(half.x + size, 0.0),
         DVec2::new(-half.x - size, 0.0),
         DVec2::new(0.0, -1.5 * height),

@@ -127,6 +127,9 @@ impl FromStr for Overlays {
                 format!("there is no overlay “{name}”; there are {names}, or all or none")
             })
         };
-        text.split(',').map(|name| one(name.trim())).collect::<Result<_, _>>().map(Self)
+        text.split(',')
+            .map(|name| one(name.trim()))
+            .collect::<Result<_, _>>()
+            .map(Self)
     }
 }

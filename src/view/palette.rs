@@ -38,7 +38,10 @@ pub fn value_color(t: f64) -> Color {
     let index = (place as usize).min(last - 1);
     let part = place - index as f64;
     std::array::from_fn(|c| {
-        let (a, b) = (f64::from(VALUE_STOPS[index][c]), f64::from(VALUE_STOPS[index + 1][c]));
+        let (a, b) = (
+            f64::from(VALUE_STOPS[index][c]),
+            f64::from(VALUE_STOPS[index + 1][c]),
+        );
         (a + part * (b - a)).round() as u8
     })
 }

@@ -55,11 +55,22 @@ impl ViewPreset {
             Self::Top => (DVec3::Y, DVec3::Z),
             Self::Normal => {
                 let away = direction_in_world.dot(toward_fruit) >= 0.0;
-                (if away { direction_in_world } else { -direction_in_world }, up)
+                (
+                    if away {
+                        direction_in_world
+                    } else {
+                        -direction_in_world
+                    },
+                    up,
+                )
             }
             Self::Axis => {
                 let downward = direction_in_world.y >= 0.0;
-                let forward = if downward { direction_in_world } else { -direction_in_world };
+                let forward = if downward {
+                    direction_in_world
+                } else {
+                    -direction_in_world
+                };
                 (forward, toward_fruit)
             }
         };

@@ -84,9 +84,11 @@ pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSett
     ] {
         if let Some(axis) = estimate.filter(|_| has(overlay)) {
             let [from, to] = axis_ends(axis, size);
-            scene
-                .lines
-                .push(Line::new(from, to, color, 3.0).outlined(outline, 1.2).shining_through(0.55));
+            scene.lines.push(
+                Line::new(from, to, color, 3.0)
+                    .outlined(outline, 1.2)
+                    .shining_through(0.55),
+            );
         }
     }
     if has(Overlay::Partners) {
@@ -130,8 +132,15 @@ pub fn framed_points(subject: Subject<'_>, settings: &SceneSettings<'_>) -> Vec<
 /// Where an axis is drawn from and to: through the fruit and a little beyond. The upper end comes
 /// second.
 pub(super) fn axis_ends(axis: &AxisEstimate, size: f64) -> [DVec3; 2] {
-    let upward = if axis.direction.y > 0.0 { -axis.direction } else { axis.direction };
-    [axis.origin - 0.5 * size * upward, axis.origin + 0.62 * size * upward]
+    let upward = if axis.direction.y > 0.0 {
+        -axis.direction
+    } else {
+        axis.direction
+    };
+    [
+        axis.origin - 0.5 * size * upward,
+        axis.origin + 0.62 * size * upward,
+    ]
 }
 
 fn mixed(a: Color, b: Color, share_of_b: f64) -> Color {
@@ -177,7 +186,13 @@ fn plane_corners(subject: Subject<'_>, plane: &Plane, axis: Option<&AxisEstimate
     ]
 }
 
-fn add_plane(scene: &mut Scene, subject: Subject<'_>, plane: &Plane, settings: &SceneSettings<'_>, size: f64) {
+fn add_plane(
+    scene: &mut Scene,
+    subject: Subject<'_>,
+    plane: &Plane,
+    settings: &SceneSettings<'_>,
+    size: f64,
+) {
     let corners = plane_corners(subject, plane, settings.axis);
     if settings.overlays.has(Overlay::Plane) {
         let edge = match settings.theme {
@@ -214,17 +229,23 @@ fn add_center_and_viewpoint(scene: &mut Scene, subject: Subject<'_>, settings: &
     let yellow = [0xf0, 0xe4, 0x42, 255];
     if settings.overlays.has(Overlay::Viewpoint) {
         let quiet = settings.theme.quiet_ink();
-        scene
-            .lines
-            .push(Line::new(viewpoint, center, quiet, 1.4).dashed().shining_through(0.6));
-        scene
-            .lines
-            .push(Line::new(viewpoint, viewpoint, WHITE, 9.0).outlined(dark, 1.5).shining_through(1.0));
+        scene.lines.push(
+            Line::new(viewpoint, center, quiet, 1.4)
+                .dashed()
+                .shining_through(0.6),
+        );
+        scene.lines.push(
+            Line::new(viewpoint, viewpoint, WHITE, 9.0)
+                .outlined(dark, 1.5)
+                .shining_through(1.0),
+        );
     }
     if settings.overlays.has(Overlay::Center) {
-        scene
-            .lines
-            .push(Line::new(center, center, yellow, 8.0).outlined(dark, 1.5).shining_through(0.9));
+        scene.lines.push(
+            Line::new(center, center, yellow, 8.0)
+                .outlined(dark, 1.5)
+                .shining_through(0.9),
+        );
     }
 }
 

@@ -43,6 +43,6 @@ fn shaded(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
             sum += clamp(step, 0.0, 0.12);
         }
     }
-    let shade = exp(-view.eye_dome_strength * 1.4 * sum);
-    return vec4<f32>(color * max(shade, 0.4), 1.0);
+    let shade = exp(-view.eye_dome_strength * 3.0 * sum);
+    return vec4<f32>(color * max(shade, 0.45), 1.0);
 }
