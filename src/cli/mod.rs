@@ -2,6 +2,8 @@
 
 mod analyze;
 mod options;
+#[cfg(feature = "window")]
+mod picture_options;
 mod progress;
 #[cfg(feature = "window")]
 mod render;
