@@ -11,4 +11,6 @@ pub mod geometry;
 pub mod io;
 pub mod method;
 pub mod reference;
+pub mod render;
 pub mod simulate;
+pub mod view;

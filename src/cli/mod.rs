@@ -3,7 +3,11 @@
 mod analyze;
 mod evaluate;
 mod options;
+#[cfg(feature = "window")]
+mod picture_options;
 mod progress;
+#[cfg(feature = "window")]
+mod render;
 mod reproduce;
 mod simulate;
 
@@ -36,6 +40,9 @@ struct Cli {
 enum Command {
     /// Find the symmetry plane and axis of one cloud
     Analyze(analyze::Analyze),
+    /// Draw the 3-D view of one cloud as a PNG, without a window
+    #[cfg(feature = "window")]
+    Render(Box<render::Render>),
     /// Make clouds whose axis is known
     Simulate(simulate::Simulate),
     /// Compare a folder of clouds with their references: a table, figures, the worst first
@@ -75,6 +82,8 @@ fn run(cli: Cli) -> anyhow::Result<()> {
     }
     match cli.command {
         Command::Analyze(analyze) => analyze::run(&analyze),
+        #[cfg(feature = "window")]
+        Command::Render(render) => render::run(&render, std::env::args_os(), parse_render),
         Command::Simulate(simulate) => simulate::run(&simulate),
         Command::Evaluate(evaluate) => evaluate::run(&evaluate),
         Command::Reproduce(reproduce) => reproduce::run(&reproduce),
@@ -88,6 +97,15 @@ fn run(cli: Cli) -> anyhow::Result<()> {
             manual(&mut page)?;
             Ok(std::io::stdout().write_all(&page)?)
         }
+    }
+}
+
+/// What `render` was asked for on another command line, if it was.
+#[cfg(feature = "window")]
+fn parse_render(arguments: &[String]) -> Option<render::Render> {
+    match Cli::try_parse_from(arguments).ok()?.command {
+        Command::Render(render) => Some(*render),
+        _ => None,
     }
 }
 

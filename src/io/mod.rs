@@ -1,4 +1,4 @@
-//! Bytes to clouds and back, and figures.
+//! Bytes to clouds and back, figures and pictures.
 //!
 //! Readers take bytes, so that a browser build can hand them what it fetched; [`read_cloud`] is the
 //! one place here that opens a file.
@@ -6,8 +6,13 @@
 mod cloud_file;
 pub mod figures;
 mod fruit;
+mod picture;
 pub mod ply;
 pub mod unit_guess;
 
 pub use cloud_file::{CloudFile, ReadError, ReadErrorKind, parse_cloud, read_cloud, sha256_hex};
 pub use fruit::{Fruit, FruitError, PeduncleChoice, companion_path, truth_path};
+pub use picture::{
+    PictureError, PictureSettings, SETTINGS_KEY, encode_picture, paint_annotations, picture_settings,
+    text_width_px,
+};

@@ -11,11 +11,11 @@ mod heatmap;
 mod histogram;
 mod legend;
 mod lines;
-mod raster;
+pub(super) mod raster;
 mod scale;
 mod scatter;
 mod style;
-mod text;
+pub(super) mod text;
 
 pub use bars::{BarChart, BarSeries};
 pub use heatmap::Heatmap;

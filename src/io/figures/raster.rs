@@ -16,6 +16,11 @@ static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
+/// The bundled font and no other.
+pub(in crate::io) fn fonts() -> Arc<usvg::fontdb::Database> {
+    Arc::clone(&FONTS)
+}
+
 /// Rasterizes `svg` at `scale` pixels a unit.
 pub(super) fn png_from_svg(svg: &str, scale: f64) -> Result<Vec<u8>, FigureError> {
     let side_px = |units: f64| (units * scale).round();
@@ -25,7 +30,7 @@ pub(super) fn png_from_svg(svg: &str, scale: f64) -> Result<Vec<u8>, FigureError
         return Err(FigureError::Scale(scale));
     }
     let options = usvg::Options {
-        fontdb: Arc::clone(&FONTS),
+        fontdb: fonts(),
         ..usvg::Options::default()
     };
     let tree = usvg::Tree::from_str(svg, &options).map_err(|error| FigureError::Raster(error.to_string()))?;

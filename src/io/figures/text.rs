@@ -13,7 +13,7 @@ pub(super) const FONT_FAMILY: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sa
 static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(FONT, 0).ok());
 
 /// The width of `text` in units of the figure.
-pub(super) fn width(text: &str, size: u32) -> f64 {
+pub(in crate::io) fn width(text: &str, size: u32) -> f64 {
     let size = f64::from(size);
     let Some(face) = FACE.as_ref() else {
         return text.chars().count() as f64 * 0.65 * size;

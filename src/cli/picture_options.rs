@@ -1,0 +1,152 @@
+//! What of a picture can be asked for on the command line.
+
+use axiscope::view::{Coloring, Overlays, ViewPreset};
+use clap::{Args, ValueEnum};
+
+use super::options::positive;
+
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Picture")]
+pub(super) struct Picture {
+    /// Pixels, from 1x1 to 16384x16384
+    #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = size)]
+    pub(super) size: [u32; 2],
+    /// What the points' colors show
+    #[arg(long, value_enum, default_value = "side")]
+    pub(super) color: ColorOption,
+    /// The plane to look at: best, or its G,H
+    #[arg(long, value_name = "PLANE", default_value = "best", value_parser = plane_choice)]
+    pub(super) plane: PlaneChoice,
+    /// Where to look from
+    #[arg(long, value_enum, default_value = "camera")]
+    pub(super) view: ViewOption,
+    /// What is drawn over the points: all, none, or names with commas between them [default:
+    /// plane,center,axis,reference,legend,scale,triad,caption; others: normal,viewpoint,ghost,partners,normals]
+    #[arg(long, value_name = "LIST", value_parser = str::parse::<Overlays>)]
+    pub(super) overlays: Option<Overlays>,
+    /// Light on dark, or dark on light
+    #[arg(long, value_enum, default_value = "dark")]
+    pub(super) background: BackgroundOption,
+    /// A point's diameter in pixels [default: by the number of points and pixels]
+    #[arg(long, value_name = "PX", value_parser = point_size, allow_negative_numbers = true)]
+    pub(super) point_size: Option<f64>,
+    /// Parallel lines stay parallel
+    #[arg(long)]
+    pub(super) orthographic: bool,
+    /// No shading by depth
+    #[arg(long)]
+    pub(super) flat: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+pub(super) enum ColorOption {
+    /// The file's colors
+    Rgb,
+    /// The side of the plane
+    Side,
+    /// Whether a point has a visible partner, or is one
+    Partner,
+    /// d: from the reflected point to its nearest neighbor
+    Distance,
+    /// ξ: between the reflected normal and that neighbor's
+    Angle,
+    /// d + τξ
+    Score,
+    /// The normal's direction
+    Normal,
+    /// The file's labels
+    Label,
+}
+
+impl ColorOption {
+    pub(super) fn coloring(self) -> Coloring {
+        match self {
+            Self::Rgb => Coloring::Rgb,
+            Self::Side => Coloring::Side,
+            Self::Partner => Coloring::Partner,
+            Self::Distance => Coloring::Distance,
+            Self::Angle => Coloring::Angle,
+            Self::Score => Coloring::Score,
+            Self::Normal => Coloring::Normal,
+            Self::Label => Coloring::Label,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum PlaneChoice {
+    Best,
+    Named { g: usize, h: usize },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+pub(super) enum ViewOption {
+    /// From the viewpoint, as the depth camera saw it
+    Camera,
+    /// Along the depth axis
+    Front,
+    /// From the camera's right
+    Side,
+    /// From above
+    Top,
+    /// Along the plane's normal
+    Normal,
+    /// Along the axis
+    Axis,
+}
+
+impl ViewOption {
+    pub(super) fn preset(self) -> ViewPreset {
+        match self {
+            Self::Camera => ViewPreset::Camera,
+            Self::Front => ViewPreset::Front,
+            Self::Side => ViewPreset::Side,
+            Self::Top => ViewPreset::Top,
+            Self::Normal => ViewPreset::Normal,
+            Self::Axis => ViewPreset::Axis,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+pub(super) enum BackgroundOption {
+    /// For screens
+    Dark,
+    /// For print
+    Light,
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let wrong = || "expected WIDTHxHEIGHT in pixels, each from 1 to 16384".to_owned();
+    let (width, height) = text.split_once(['x', '×']).ok_or_else(wrong)?;
+    let side = |text: &str| {
+        let side = text.parse::<u32>().map_err(|_| wrong())?;
+        if (1..=axiscope::render::MAX_SIDE_PX).contains(&side) {
+            Ok(side)
+        } else {
+            Err(wrong())
+        }
+    };
+    Ok([side(width)?, side(height)?])
+}
+
+fn point_size(text: &str) -> Result<f64, String> {
+    match positive(text)? {
+        px if px <= 100.0 => Ok(px),
+        _ => Err("expected at most 100 pixels".into()),
+    }
+}
+
+fn plane_choice(text: &str) -> Result<PlaneChoice, String> {
+    if text == "best" {
+        return Ok(PlaneChoice::Best);
+    }
+    let numbers: Vec<usize> = text
+        .split(',')
+        .map(|n| n.trim().parse().map_err(|_| "expected best, or two numbers G,H"))
+        .collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [g, h] => Ok(PlaneChoice::Named { g, h }),
+        _ => Err("expected best, or two numbers G,H".into()),
+    }
+}

@@ -1,0 +1,33 @@
+//! A point renderer: a camera, a scene of points, lines and planes as plain data, and their picture.
+//!
+//! It knows [`crate::geometry`] and nothing else of this crate, neither a window nor the method.
+//! [`Camera`] and [`Scene`] need no GPU and are always built; what draws them is behind the
+//! feature `window`.
+
+mod camera;
+#[cfg(feature = "window")]
+mod canvas;
+mod framing;
+#[cfg(feature = "window")]
+mod gpu;
+mod image;
+#[cfg(feature = "window")]
+mod offscreen;
+#[cfg(feature = "window")]
+mod pipelines;
+mod scene;
+#[cfg(feature = "window")]
+mod uploads;
+
+pub use camera::{Camera, Projection, Ray, Viewport};
+#[cfg(feature = "window")]
+pub use canvas::Canvas;
+pub use framing::Insets;
+#[cfg(feature = "window")]
+pub use gpu::{Gpu, GpuError};
+pub use image::{Image, MAX_SIDE_PX};
+#[cfg(feature = "window")]
+pub use offscreen::{DrawError, draw_image};
+#[cfg(feature = "window")]
+pub use pipelines::{Renderer, SHADERS};
+pub use scene::{Background, Bounds, Color, Dash, EyeDome, Line, Points, Polygon, Scene};

@@ -1,0 +1,23 @@
+//! What a view of an analysis shows, as plain data: colors and their legend, overlays, annotations.
+//!
+//! Nothing here draws. A window and a picture without one show the same, since both get it from here.
+
+mod annotation;
+mod coloring;
+mod layout;
+mod legend;
+mod overlays;
+mod palette;
+mod preset;
+mod scene;
+mod shown;
+
+pub use annotation::{Anchor, Annotation, Theme};
+pub use coloring::{Colored, Coloring, ColoringError, Subject, color_points};
+pub use layout::{Page, annotate, insets};
+pub use legend::{Legend, Ramp, Swatch};
+pub use overlays::{Overlay, Overlays};
+pub use palette::{NEUTRAL, VALUE_STOPS, value_color};
+pub use preset::ViewPreset;
+pub use scene::{SceneSettings, build_scene, framed_points};
+pub use shown::ShownPoints;

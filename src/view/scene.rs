@@ -1,0 +1,280 @@
+//! From an analysis to what the renderer draws.
+
+use glam::DVec3;
+
+use super::annotation::Theme;
+use super::coloring::{Colored, Subject};
+use super::overlays::{Overlay, Overlays};
+use super::palette::{PINK, SKY};
+use crate::geometry::{Extent, Plane};
+use crate::method::AxisEstimate;
+use crate::render::{Color, EyeDome, Line, Points, Polygon, Scene};
+
+/// How an analysis is drawn.
+#[derive(Debug, Clone)]
+pub struct SceneSettings<'a> {
+    /// What is drawn over the points.
+    pub overlays: &'a Overlays,
+    /// Light on dark, or dark on light.
+    pub theme: Theme,
+    /// A point's diameter in pixels.
+    pub point_size_px: f32,
+    /// 0 is no eye-dome lighting, 1 the usual strength.
+    pub eye_dome_strength: f32,
+    /// The plane that is looked at.
+    pub plane: Option<Plane>,
+    /// The axis that follows from it.
+    pub axis: Option<&'a AxisEstimate>,
+    /// The axis that it is compared with.
+    pub reference: Option<&'a AxisEstimate>,
+}
+
+/// The computed axis is green, as in the paper's figures.
+const AXIS: Color = [0x2f, 0xd0, 0x68, 255];
+const WHITE: Color = [255; 4];
+const PLANE: Color = [0x8f, 0xb8, 0xde, 255];
+/// Samples that can still be told apart.
+const PARTNER_LINES: usize = 120;
+const NORMAL_LINES: usize = 400;
+
+/// Everything of an analysis that is drawn in space. `colored` comes from [`super::color_points`].
+/// Generations start from zero: whoever draws several scenes after each other sets them.
+pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSettings<'_>) -> Scene {
+    let positions = &subject.shown.positions;
+    let extent = Extent::robust(positions).unwrap_or(Extent {
+        min: DVec3::ZERO,
+        max: DVec3::ONE,
+    });
+    let size = extent.size().length().max(1e-9);
+    let has = |overlay| settings.overlays.has(overlay);
+    let mut scene = Scene::empty(settings.theme.background());
+    scene.origin_in_world = extent.center();
+    scene.eye_dome = EyeDome {
+        strength: settings.eye_dome_strength,
+        scale: (0.5 * size) as f32,
+    };
+    let local = |p: DVec3| (p - extent.center()).as_vec3();
+    let mut colors = colored.colors.clone();
+    if let Some(plane) = settings.plane.filter(|_| has(Overlay::Plane)) {
+        brighten_cut(positions, &mut colors, &plane, 0.006 * size, settings.theme);
+    }
+    scene.points.push(Points {
+        positions: positions.iter().map(|&p| local(p)).collect(),
+        colors,
+        size_px: settings.point_size_px,
+        ..Points::default()
+    });
+    if let Some(plane) = settings.plane.filter(|_| has(Overlay::Ghost)) {
+        let used = subject.analysis.surface.points();
+        scene.points.push(Points {
+            positions: used.iter().map(|&p| local(plane.reflect_point(p))).collect(),
+            colors: vec![PINK; used.len()],
+            size_px: 0.6 * settings.point_size_px,
+            ..Points::default()
+        });
+    }
+    if let Some(plane) = settings.plane {
+        add_plane(&mut scene, subject, &plane, settings, size);
+    }
+    add_center_and_viewpoint(&mut scene, subject, settings);
+    let outline = [0x10, 0x12, 0x14, 255];
+    for (estimate, overlay, color) in [
+        (settings.reference, Overlay::Reference, WHITE),
+        (settings.axis, Overlay::Axis, AXIS),
+    ] {
+        if let Some(axis) = estimate.filter(|_| has(overlay)) {
+            let [from, to] = axis_ends(axis, size);
+            scene.lines.push(
+                Line::new(from, to, color, 3.0)
+                    .outlined(outline, 1.2)
+                    .shining_through(0.55),
+            );
+        }
+    }
+    if has(Overlay::Partners) {
+        add_partner_lines(&mut scene, subject);
+    }
+    if has(Overlay::Normals) {
+        add_normals(&mut scene, subject, 0.05 * size, settings.theme);
+    }
+    scene.fit_bounds();
+    scene
+}
+
+/// What must be in the picture: the bulk of the points (no stray decides), the plane and the axes.
+pub fn framed_points(subject: Subject<'_>, settings: &SceneSettings<'_>) -> Vec<DVec3> {
+    let positions = &subject.shown.positions;
+    let Some(extent) = Extent::robust(positions) else {
+        return Vec::new();
+    };
+    let margin = 0.2 * extent.size() + DVec3::splat(1e-3 * extent.size().length());
+    let (min, max) = (extent.min - margin, extent.max + margin);
+    let step = (positions.len() / 20_000).max(1);
+    let bulk = positions.iter().step_by(step).copied();
+    let mut framed: Vec<DVec3> = bulk
+        .filter(|p| p.cmpge(min).all() && p.cmple(max).all())
+        .collect();
+    let size = extent.size().length();
+    if let Some(plane) = settings.plane.filter(|_| settings.overlays.has(Overlay::Plane)) {
+        framed.extend(plane_corners(subject, &plane, settings.axis));
+    }
+    for (estimate, overlay) in [
+        (settings.axis, Overlay::Axis),
+        (settings.reference, Overlay::Reference),
+    ] {
+        if let Some(axis) = estimate.filter(|_| settings.overlays.has(overlay)) {
+            framed.extend(axis_ends(axis, size));
+        }
+    }
+    framed
+}
+
+/// Where an axis is drawn from and to: through the fruit and a little beyond. The upper end comes
+/// second.
+pub(super) fn axis_ends(axis: &AxisEstimate, size: f64) -> [DVec3; 2] {
+    let upward = if axis.direction.y > 0.0 {
+        -axis.direction
+    } else {
+        axis.direction
+    };
+    [
+        axis.origin - 0.5 * size * upward,
+        axis.origin + 0.62 * size * upward,
+    ]
+}
+
+fn mixed(a: Color, b: Color, share_of_b: f64) -> Color {
+    std::array::from_fn(|i| {
+        let (a, b) = (f64::from(a[i]), f64::from(b[i]));
+        (a + share_of_b * (b - a)).round() as u8
+    })
+}
+
+/// The points that the plane cuts through stand out.
+fn brighten_cut(positions: &[DVec3], colors: &mut [Color], plane: &Plane, half_width: f64, theme: Theme) {
+    for (p, color) in positions.iter().zip(colors) {
+        if plane.signed_distance(*p).abs() <= half_width {
+            *color = mixed(*color, theme.ink(), 0.75);
+        }
+    }
+}
+
+/// A rectangle in the plane, along the axis where there is one, around the bulk of the points.
+fn plane_corners(subject: Subject<'_>, plane: &Plane, axis: Option<&AxisEstimate>) -> [DVec3; 4] {
+    let along = axis
+        .map(|a| a.direction - a.direction.dot(plane.normal) * plane.normal)
+        .and_then(DVec3::try_normalize)
+        .unwrap_or_else(|| plane.normal.any_orthonormal_vector());
+    let across = plane.normal.cross(along);
+    let in_plane = |p: &DVec3| {
+        let q = *p - plane.point;
+        DVec3::new(q.dot(along), q.dot(across), 0.0)
+    };
+    let flat: Vec<DVec3> = subject.shown.positions.iter().map(in_plane).collect();
+    let extent = Extent::robust(&flat).unwrap_or(Extent {
+        min: DVec3::NEG_ONE,
+        max: DVec3::ONE,
+    });
+    let margin = 0.12 * extent.size().length();
+    let (low, high) = (extent.min - margin, extent.max + margin);
+    let corner = |u: f64, v: f64| plane.point + u * along + v * across;
+    [
+        corner(low.x, low.y),
+        corner(high.x, low.y),
+        corner(high.x, high.y),
+        corner(low.x, high.y),
+    ]
+}
+
+fn add_plane(
+    scene: &mut Scene,
+    subject: Subject<'_>,
+    plane: &Plane,
+    settings: &SceneSettings<'_>,
+    size: f64,
+) {
+    let corners = plane_corners(subject, plane, settings.axis);
+    if settings.overlays.has(Overlay::Plane) {
+        let edge = match settings.theme {
+            Theme::Dark => PLANE,
+            Theme::Light => [0x3a, 0x6e, 0xa5, 255],
+        };
+        let opacity = if settings.theme == Theme::Dark { 52 } else { 64 };
+        scene.polygons.push(Polygon {
+            corners_in_world: corners.to_vec(),
+            color: [edge[0], edge[1], edge[2], opacity],
+        });
+        for i in 0..4 {
+            scene
+                .lines
+                .push(Line::new(corners[i], corners[(i + 1) % 4], edge, 1.4).shining_through(0.3));
+        }
+    }
+    if settings.overlays.has(Overlay::Normal) {
+        let tip = plane.point + 0.4 * size * plane.normal;
+        let (a, b) = plane.normal.any_orthonormal_pair();
+        let line = |from, to| Line::new(from, to, SKY, 2.2).shining_through(0.5);
+        scene.lines.push(line(plane.point, tip));
+        for side in [a, -a, b, -b] {
+            scene
+                .lines
+                .push(line(tip, tip - 0.05 * size * plane.normal + 0.02 * size * side));
+        }
+    }
+}
+
+fn add_center_and_viewpoint(scene: &mut Scene, subject: Subject<'_>, settings: &SceneSettings<'_>) {
+    let (center, viewpoint) = (subject.analysis.center, subject.analysis.params.viewpoint);
+    let dark = [0x10, 0x12, 0x14, 255];
+    let yellow = [0xf0, 0xe4, 0x42, 255];
+    if settings.overlays.has(Overlay::Viewpoint) {
+        let quiet = settings.theme.quiet_ink();
+        scene.lines.push(
+            Line::new(viewpoint, center, quiet, 1.4)
+                .dashed()
+                .shining_through(0.6),
+        );
+        scene.lines.push(
+            Line::new(viewpoint, viewpoint, WHITE, 9.0)
+                .outlined(dark, 1.5)
+                .shining_through(1.0),
+        );
+    }
+    if settings.overlays.has(Overlay::Center) {
+        scene.lines.push(
+            Line::new(center, center, yellow, 8.0)
+                .outlined(dark, 1.5)
+                .shining_through(0.9),
+        );
+    }
+}
+
+/// Every so many of `count`, at most `most` of them, spread evenly.
+fn sample(count: usize, most: usize) -> impl Iterator<Item = usize> {
+    (0..count).step_by(count.div_ceil(most).max(1))
+}
+
+fn add_partner_lines(scene: &mut Scene, subject: Subject<'_>) {
+    let Some(detail) = subject.detail else {
+        return;
+    };
+    let surface = subject.analysis.surface.points();
+    let with_partner: Vec<(usize, usize)> = (0..detail.points.len())
+        .filter_map(|i| Some((i, detail.points[i].partner?.index)))
+        .collect();
+    for at in sample(with_partner.len(), PARTNER_LINES) {
+        let (i, partner) = with_partner[at];
+        let line = Line::new(surface[i], surface[partner], [0xcc, 0x79, 0xa7, 200], 1.2);
+        scene.lines.push(line.shining_through(0.45));
+    }
+}
+
+fn add_normals(scene: &mut Scene, subject: Subject<'_>, length: f64, theme: Theme) {
+    let surface = &subject.analysis.surface;
+    for i in sample(surface.len(), NORMAL_LINES) {
+        let (p, normal) = (surface.points()[i], surface.normals()[i]);
+        scene
+            .lines
+            .push(Line::new(p, p + length * normal, theme.quiet_ink(), 1.1));
+    }
+}
