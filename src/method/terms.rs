@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{CandidateGrid, Surface, has_visible_partner};
 use crate::geometry::map_pieces;
-use crate::geometry::{Cancelled, Neighbors, Plane, Unit, Watch, angle_between_directions_rad};
+use crate::geometry::{Cancelled, Hint, Neighbors, Plane, Unit, Watch, angle_between_directions_rad};
 
 /// The sums over one plane's points that have a visible partner. The score for any τ and any
 /// aggregation follows from them.
@@ -76,6 +76,8 @@ pub fn terms_of_planes(
     let Some(neighbors) = Neighbors::new(surface.points()) else {
         return Ok(vec![PlaneTerm::default(); planes.len()]);
     };
+    // Points in an order in which each asks for nearly what the one before it asked for.
+    let order = neighbors.order();
     // One run of pieces over all planes' points, plane after plane, so that many cores find work
     // even where the planes are few.
     let pieces_a_plane = surface.len().div_ceil(PIECE);
@@ -83,9 +85,10 @@ pub fn terms_of_planes(
         let (plane, piece) = (range.start / pieces_a_plane, range.start % pieces_a_plane);
         let points = piece * PIECE..((piece + 1) * PIECE).min(surface.len());
         let mut sum = PlaneTerm::default();
-        for i in points {
+        let mut hint = Hint::default();
+        for &i in &order[points] {
             if let Some((_, distance, angle_rad)) =
-                partner_of(surface, &neighbors, &planes[plane], viewpoint, i)
+                partner_of(surface, &neighbors, &planes[plane], viewpoint, i as usize, &mut hint)
             {
                 sum.partners += 1;
                 sum.distance_sum_cm += distance * unit.in_cm();
@@ -112,12 +115,13 @@ pub(super) fn partner_of(
     plane: &Plane,
     viewpoint: DVec3,
     i: usize,
+    hint: &mut Hint,
 ) -> Option<(usize, f64, f64)> {
     let (point, normal) = (surface.points()[i], surface.normals()[i]);
     if !has_visible_partner(plane, point, normal, viewpoint) {
         return None;
     }
-    let nearest = neighbors.nearest(plane.reflect_point(point));
+    let nearest = neighbors.nearest_from(plane.reflect_point(point), hint);
     let angle_rad =
         angle_between_directions_rad(plane.reflect_direction(normal), surface.normals()[nearest.index]);
     Some((nearest.index, nearest.distance_squared.sqrt(), angle_rad))
