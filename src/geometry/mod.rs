@@ -20,7 +20,7 @@ pub use cloud::{Cloud, LengthMismatch};
 pub use extent::Extent;
 pub use filters::{statistical_inliers, voxel_grid};
 pub use line::{angle_between_directions_rad, angle_between_lines_rad};
-pub use neighbors::{Hint, Neighbor, Neighbors};
+pub use neighbors::{Neighbor, Neighbors};
 pub use normals::estimate_normals;
 pub use parallel::map_pieces;
 pub use plane::Plane;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Surface;
 use super::terms::partner_of;
 use crate::geometry::map_pieces;
-use crate::geometry::{Cancelled, Hint, Neighbors, Plane, Unit, Watch};
+use crate::geometry::{Cancelled, Neighbors, Plane, Unit, Watch};
 
 /// Which side of a plane a point lies on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -68,7 +68,7 @@ pub fn plane_detail(
     let detail = |i: usize| {
         let partner = neighbors
             .as_ref()
-            .and_then(|n| partner_of(surface, n, &plane, viewpoint, i, &mut Hint::default()))
+            .and_then(|n| partner_of(surface, n, &plane, viewpoint, i))
             .map(|(index, distance, angle_rad)| Partner {
                 index,
                 distance_cm: distance * unit.in_cm(),

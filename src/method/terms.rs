@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{CandidateGrid, Surface, has_visible_partner};
 use crate::geometry::map_pieces;
-use crate::geometry::{Cancelled, Hint, Neighbors, Plane, Unit, Watch, angle_between_directions_rad};
+use crate::geometry::{Cancelled, Neighbors, Plane, Unit, Watch, angle_between_directions_rad};
 
 /// The sums over one plane's points that have a visible partner. The score for any τ and any
 /// aggregation follows from them.
@@ -83,17 +83,21 @@ pub fn terms_of_planes(
     let pieces_a_plane = surface.len().div_ceil(PIECE);
     let partial = map_pieces(planes.len() * pieces_a_plane, 1, watch, |range| {
         let (plane, piece) = (range.start / pieces_a_plane, range.start % pieces_a_plane);
-        let points = piece * PIECE..((piece + 1) * PIECE).min(surface.len());
+        let range = piece * PIECE..((piece + 1) * PIECE).min(surface.len());
         let mut sum = PlaneTerm::default();
-        let mut hint = Hint::default();
-        for &i in &order[points] {
-            if let Some((_, distance, angle_rad)) =
-                partner_of(surface, &neighbors, &planes[plane], viewpoint, i as usize, &mut hint)
-            {
-                sum.partners += 1;
-                sum.distance_sum_cm += distance * unit.in_cm();
-                sum.angle_sum_rad += angle_rad;
-            }
+        let plane = &planes[plane];
+        let (points, normals) = (surface.points(), surface.normals());
+        let visible: Vec<usize> = order[range]
+            .iter()
+            .map(|&i| i as usize)
+            .filter(|&i| has_visible_partner(plane, points[i], normals[i], viewpoint))
+            .collect();
+        let reflected: Vec<DVec3> = visible.iter().map(|&i| plane.reflect_point(points[i])).collect();
+        for (i, nearest) in visible.into_iter().zip(neighbors.nearest_of_each(&reflected)) {
+            sum.partners += 1;
+            sum.distance_sum_cm += nearest.distance_squared.sqrt() * unit.in_cm();
+            sum.angle_sum_rad +=
+                angle_between_directions_rad(plane.reflect_direction(normals[i]), normals[nearest.index]);
         }
         sum
     })?;
@@ -115,13 +119,12 @@ pub(super) fn partner_of(
     plane: &Plane,
     viewpoint: DVec3,
     i: usize,
-    hint: &mut Hint,
 ) -> Option<(usize, f64, f64)> {
     let (point, normal) = (surface.points()[i], surface.normals()[i]);
     if !has_visible_partner(plane, point, normal, viewpoint) {
         return None;
     }
-    let nearest = neighbors.nearest_from(plane.reflect_point(point), hint);
+    let nearest = neighbors.nearest(plane.reflect_point(point));
     let angle_rad =
         angle_between_directions_rad(plane.reflect_direction(normal), surface.normals()[nearest.index]);
     Some((nearest.index, nearest.distance_squared.sqrt(), angle_rad))

@@ -72,20 +72,49 @@ impl Boxes {
     /// The squared distances from `q` to the boxes.
     #[inline(always)]
     pub(super) fn distances_squared(&self, q: [f32; 3]) -> [f32; WIDTH] {
-        std::array::from_fn(|i| {
-            let d = [
-                q[0] - self.center[0][i],
-                q[1] - self.center[1][i],
-                q[2] - self.center[2][i],
-            ];
-            let mut sum = 0.0;
-            for e in 0..3 {
-                let a = &self.axes[e];
-                let along = a[0][i] * d[0] + a[1][i] * d[1] + a[2][i] * d[2];
-                let outside = (along.abs() - self.half[e][i]).max(0.0);
-                sum += outside * outside;
+        // Plain loops over lanes, which the compiler turns into vector instructions.
+        let mut sum = [0.0; WIDTH];
+        for e in 0..3 {
+            let ([ax, ay, az], half) = (&self.axes[e], &self.half[e]);
+            for i in 0..WIDTH {
+                let along = ax[i] * (q[0] - self.center[0][i])
+                    + ay[i] * (q[1] - self.center[1][i])
+                    + az[i] * (q[2] - self.center[2][i]);
+                let outside = along.abs() - half[i];
+                // Not `max`, whose rule for NaN costs instructions.
+                let outside = if outside > 0.0 { outside } else { 0.0 };
+                sum[i] += outside * outside;
             }
-            sum
-        })
+        }
+        sum
+    }
+
+    /// Whether any query lies within its reach of the box in `lane`; NaN counts as within.
+    #[inline(always)]
+    pub(super) fn any_within<const N: usize>(
+        &self,
+        lane: usize,
+        queries: &[[f32; N]; 3],
+        reach_squared: &[f32; N],
+    ) -> bool {
+        let center: [f32; 3] = std::array::from_fn(|e| self.center[e][lane]);
+        let mut sum = [0.0; N];
+        for e in 0..3 {
+            let [ax, ay, az]: [f32; 3] = std::array::from_fn(|f| self.axes[e][f][lane]);
+            let half = self.half[e][lane];
+            for i in 0..N {
+                let along = ax * (queries[0][i] - center[0])
+                    + ay * (queries[1][i] - center[1])
+                    + az * (queries[2][i] - center[2]);
+                let outside = along.abs() - half;
+                let outside = if outside > 0.0 { outside } else { 0.0 };
+                sum[i] += outside * outside;
+            }
+        }
+        let mut beyond = true;
+        for i in 0..N {
+            beyond &= sum[i] > reach_squared[i];
+        }
+        !beyond
     }
 }

@@ -2,7 +2,20 @@
 //!
 //! The tree is our own, since what the method asks is unusual: points mirrored away from a surface
 //! are far from it and nearly as far from much of it, and each asks for almost what the one before
-//! it asked for. See `boxes.rs` for the first, [`Hint`] for the second.
+//! it asked for. See `boxes.rs` for the first, [`Neighbors::nearest_of_each`] for the second.
+
+#![allow(
+    clippy::inline_always,
+    reason = "only what is inlined is built for each kind of vector instructions"
+)]
+#![allow(
+    clippy::needless_range_loop,
+    reason = "loops over lanes, of several arrays at a time"
+)]
+#![allow(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "where rounding left no number, a box must be looked into"
+)]
 
 mod boxes;
 mod places;
@@ -10,7 +23,7 @@ mod tree;
 
 use std::num::NonZeroUsize;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use places::distinct_places;
 use tree::{Item, LEAF, Tree};
@@ -26,12 +39,8 @@ pub struct Neighbor {
     pub multiplicity: usize,
 }
 
-/// Where the last query was answered. A query near it starts there and is answered sooner, and the
-/// same.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Hint {
-    leaf: Option<usize>,
-}
+/// Queries that walk through the tree together.
+const BLOCK: usize = 16;
 
 /// An index of points for exact nearest-neighbor queries.
 ///
@@ -111,46 +120,37 @@ impl Neighbors {
     /// The place nearest to `query`, which must be finite; of several as near the one of the lowest
     /// index.
     pub fn nearest(&self, query: DVec3) -> Neighbor {
-        self.nearest_from(query, &mut Hint::default())
-    }
-
-    /// [`Neighbors::nearest`], starting at the answer to an earlier query to the same index, and
-    /// leaving this one's answer for the next.
-    #[inline(always)]
-    pub fn nearest_from(&self, query: DVec3, hint: &mut Hint) -> Neighbor {
-        let start = hint.leaf.unwrap_or_else(|| self.tree.descend(query));
-        // The first place of all stands in where every distance overflows.
+        let start = self.tree.descend(query);
+        // The first place there stands in where every distance overflows.
         let mut best = (f64::INFINITY, start * LEAF);
         self.look_into(start, query, &mut best);
-        self.tree.walk(query, best.0, |leaf| {
+        self.tree.walk(query, best.0, |leaf, _| {
             if leaf != start {
                 self.look_into(leaf, query, &mut best);
             }
             best.0
         });
-        hint.leaf = Some(best.1 / LEAF);
         self.neighbor(best.1, best.0)
     }
 
     #[inline(always)]
     fn look_into(&self, leaf: usize, query: DVec3, best: &mut (f64, usize)) {
         let distances = self.tree.leaf_distances_squared(leaf, query);
-        // Pairwise rather than in a row, so that the lanes need not wait for each other.
-        let mut least = distances;
-        for width in [8, 4, 2, 1] {
-            for i in 0..width {
-                least[i] = if least[i + width] < least[i] { least[i + width] } else { least[i] };
-            }
-        }
-        if least[0] > best.0 {
-            return;
-        }
         for position in self.tree.positions(leaf) {
             let d = distances[position % LEAF];
-            if d == least[0] && (d < best.0 || self.first[position] < self.first[best.1]) {
+            if d < best.0 || (d == best.0 && self.first[position] < self.first[best.1]) {
                 *best = (d, position);
             }
         }
+    }
+
+    /// [`Neighbors::nearest`] of each query, in their order. Queries that lie close to those before
+    /// them, as points in [`Neighbors::order`] do, are answered several times sooner than one by one:
+    /// they walk through the tree together.
+    pub fn nearest_of_each(&self, queries: &[DVec3]) -> Vec<Neighbor> {
+        // The widest vector instructions that this machine has. They round like all others, and
+        // nothing is contracted, so that the answers are the same everywhere.
+        pulp::Arch::new().dispatch(NearestOfEach { index: self, queries })
     }
 
     /// The places nearest to `query` that together hold at least `count` points (all of them where
@@ -160,25 +160,32 @@ impl Neighbors {
         let start = self.tree.descend(query);
         let mut found = Vec::new();
         self.gather(query, count, start, &mut found);
-        found.iter().map(|&(d, position)| self.neighbor(position as usize, d)).collect()
+        found
+            .iter()
+            .map(|&(d, position)| self.neighbor(position as usize, d))
+            .collect()
     }
 
     /// The distances and positions in the tree's order of the nearest places, into `found`.
     /// `start` is a leaf nearby.
     #[inline(always)]
     fn gather(&self, query: DVec3, count: NonZeroUsize, start: usize, found: &mut Vec<(f64, u32)>) {
-        let count = count.get().min(self.tree.len());
+        let mut wanted = count.get();
+        let count = wanted.min(self.tree.len());
         // Some places nearby, whose count-th bounds the search.
         found.clear();
-        let whole = count.next_multiple_of(LEAF).div_ceil(LEAF).next_power_of_two();
+        // One leaf more than they fill, since the last may be short.
+        let window = count.div_ceil(LEAF) + 1;
         let leaves = self.tree.len().div_ceil(LEAF);
-        let from = (start / whole * whole).min(leaves.saturating_sub(whole));
-        for leaf in from..(from + whole).min(leaves) {
+        let from = start
+            .saturating_sub(window / 2)
+            .min(leaves.saturating_sub(window));
+        for leaf in from..(from + window).min(leaves) {
             self.collect(leaf, query, f64::INFINITY, found);
         }
         let (_, &mut (limit, _), _) = found.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
         found.clear();
-        self.tree.walk(query, limit, |leaf| {
+        self.tree.walk(query, limit, |leaf, _| {
             self.collect(leaf, query, limit, found);
             limit
         });
@@ -190,7 +197,6 @@ impl Neighbors {
             found.truncate(count);
         }
         found.sort_unstable_by(by_distance);
-        let mut wanted = count;
         let enough = found.iter().position(|&(_, position)| {
             let here = self.multiplicity(position as usize);
             let last = here >= wanted;
@@ -222,5 +228,114 @@ impl Neighbors {
             distance_squared,
             multiplicity: self.multiplicity(position),
         }
+    }
+}
+
+/// [`Neighbors::nearest_of_each`] as what can be built once for each kind of vector instructions:
+/// all that it calls in its loops is inlined into it.
+struct NearestOfEach<'a> {
+    index: &'a Neighbors,
+    queries: &'a [DVec3],
+}
+
+impl pulp::NullaryFnOnce for NearestOfEach<'_> {
+    type Output = Vec<Neighbor>;
+
+    #[inline(always)]
+    fn call(self) -> Vec<Neighbor> {
+        let (index, tree) = (self.index, &self.index.tree);
+        let mut found = Vec::with_capacity(self.queries.len());
+        let mut near = Vec::new();
+        let mut start = None;
+        for queries in self.queries.chunks(BLOCK) {
+            let center = queries.iter().sum::<DVec3>() / queries.len() as f64;
+            let first = start.unwrap_or_else(|| tree.descend(center));
+            let mut block = Block::new(index, queries, first);
+            block.look_into(index, first);
+            let limit_squared = block.limit_squared(queries, center);
+            near.clear();
+            tree.walk(center, limit_squared, |leaf, distance| {
+                near.push((distance, leaf));
+                limit_squared
+            });
+            // The nearest first, so that most of the others need not be looked into.
+            near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            for &(_, leaf) in &near {
+                if leaf != first && tree.any_within(leaf, &block.in_frame, &block.reach_squared) {
+                    block.look_into(index, leaf);
+                }
+            }
+            start = Some(block.position[0] / LEAF);
+            for i in 0..queries.len() {
+                found.push(index.neighbor(block.position[i], block.best[i]));
+            }
+        }
+        found
+    }
+}
+
+/// Queries that walk through the tree together, and what they have found so far.
+struct Block {
+    queries: [[f64; BLOCK]; 3],
+    /// The queries in the boxes' frame.
+    in_frame: [[f32; BLOCK]; 3],
+    /// How far, in that frame, a box may be from a query and hold something nearer.
+    reach_squared: [f32; BLOCK],
+    /// The squared distances of what is nearest so far.
+    best: [f64; BLOCK],
+    /// Where that stands in the tree's order.
+    position: [usize; BLOCK],
+}
+
+impl Block {
+    /// A short block is filled up with its last query. The first place of leaf `first` stands in
+    /// where every distance overflows.
+    #[inline(always)]
+    fn new(index: &Neighbors, queries: &[DVec3], first: usize) -> Self {
+        let mut block = Self {
+            queries: [[0.0; BLOCK]; 3],
+            in_frame: [[0.0; BLOCK]; 3],
+            reach_squared: [f32::INFINITY; BLOCK],
+            best: [f64::INFINITY; BLOCK],
+            position: [first * LEAF; BLOCK],
+        };
+        for i in 0..BLOCK {
+            let query = queries[i.min(queries.len() - 1)];
+            let in_frame = index.tree.in_frame(query);
+            for e in 0..3 {
+                block.queries[e][i] = query[e];
+                block.in_frame[e][i] = in_frame[e];
+            }
+        }
+        block
+    }
+
+    #[inline(always)]
+    fn look_into(&mut self, index: &Neighbors, leaf: usize) {
+        let (least, which) = index.tree.nearest_in_leaf(leaf, &self.queries);
+        for i in 0..BLOCK {
+            if least[i] > self.best[i] || least[i] == f64::INFINITY {
+                continue;
+            }
+            let there = leaf * LEAF + which[i] as usize;
+            if least[i] < self.best[i] || index.first[there] < index.first[self.position[i]] {
+                (self.best[i], self.position[i]) = (least[i], there);
+                let in_frame = Vec3::from_array(self.in_frame.map(|c| c[i]));
+                self.reach_squared[i] = index.tree.reach_squared(in_frame, least[i]);
+            }
+        }
+    }
+
+    /// How far from `center` something nearer to any of the queries may be, squared.
+    #[inline(always)]
+    fn limit_squared(&self, queries: &[DVec3], center: DVec3) -> f64 {
+        let larger = |a: f64, b: f64| if b > a { b } else { a };
+        let radius_squared = queries
+            .iter()
+            .fold(0.0, |a, q| larger(a, center.distance_squared(*q)));
+        let best = self.best.iter().fold(0.0, |a, &b| larger(a, b));
+        // A hair more than it is, against rounding.
+        let limit = (best.sqrt() + radius_squared.sqrt()) * (1.0 + 1e-12);
+        limit * limit
     }
 }

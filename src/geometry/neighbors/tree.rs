@@ -1,7 +1,7 @@
 //! A balanced tree of boxes over leaves of points, laid out by position alone: leaf `i` holds the
 //! points from `i * LEAF`, and a node of a level the eight nodes below it.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::boxes::{Boxes, SLACK, WIDTH};
 use crate::geometry::parallel::{join, map_pieces};
@@ -38,6 +38,10 @@ impl Tree {
     pub(super) fn new(items: &mut [Item]) -> Self {
         let len = items.len();
         sort(items);
+        // Within a leaf by number, so that the first of equals is the lowest.
+        for leaf in items.chunks_mut(LEAF) {
+            leaf.sort_unstable_by_key(|item| item.id);
+        }
         let (low, high) = extent(items);
         let origin = low + 0.5 * (high - low);
         let half = 0.5 * (high - low).max_element();
@@ -88,23 +92,21 @@ impl Tree {
     #[inline(always)]
     pub(super) fn leaf_distances_squared(&self, leaf: usize, q: DVec3) -> [f64; LEAF] {
         let [x, y, z] = &self.leaves[leaf];
-        std::array::from_fn(|i| {
+        let mut sum = [0.0; LEAF];
+        for i in 0..LEAF {
             let d = [q.x - x[i], q.y - y[i], q.z - z[i]];
-            d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
-        })
+            sum[i] = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        }
+        sum
     }
 
     /// Walks over all leaves that may hold a point within `limit_squared` of `q`, and perhaps some
     /// more. `visit` gets each and returns the limit from there on, which must not grow.
     #[inline(always)]
-    pub(super) fn walk(&self, q: DVec3, mut limit_squared: f64, mut visit: impl FnMut(usize) -> f64) {
-        let in_frame = ((q - self.origin) * self.scale).as_vec3();
-        let slack = SLACK * (1.0 + in_frame.length());
-        let reach_squared = |limit_squared: f64| {
-            let reach = (limit_squared.sqrt() * self.scale) as f32 * (1.0 + SLACK) + slack;
-            reach * reach
-        };
-        let in_frame = in_frame.to_array();
+    pub(super) fn walk(&self, q: DVec3, mut limit_squared: f64, mut visit: impl FnMut(usize, f32) -> f64) {
+        let q = self.in_frame(q);
+        let reach_squared = |limit_squared| self.reach_squared(q, limit_squared);
+        let in_frame = q.to_array();
         let mut reach = reach_squared(limit_squared);
         let mut stack = [(0.0, 0u32, 0u32); 12 * WIDTH];
         stack[0].1 = self.levels.len() as u32 - 1;
@@ -131,7 +133,7 @@ impl Tree {
                         height += 1;
                     }
                 } else if !(distances[i] > reach) && below < self.leaves.len() {
-                    let limit = visit(below);
+                    let limit = visit(below, distances[i]);
                     if limit != limit_squared {
                         limit_squared = limit;
                         reach = reach_squared(limit);
@@ -143,7 +145,7 @@ impl Tree {
 
     /// A leaf near `q`, down the nearest boxes.
     pub(super) fn descend(&self, q: DVec3) -> usize {
-        let in_frame = ((q - self.origin) * self.scale).as_vec3().to_array();
+        let in_frame = self.in_frame(q).to_array();
         let mut group = 0;
         for (level, boxes) in self.levels.iter().enumerate().rev() {
             let distances = boxes[group].distances_squared(in_frame);
@@ -161,6 +163,57 @@ impl Tree {
         group
     }
 
+    /// How far a box may seem to be from a query in the boxes' frame and still hold a point within
+    /// the root of `limit_squared` of it, squared.
+    #[inline(always)]
+    pub(super) fn reach_squared(&self, in_frame: Vec3, limit_squared: f64) -> f32 {
+        let slack = SLACK * (1.0 + in_frame.length());
+        let reach = (limit_squared.sqrt() * self.scale) as f32 * (1.0 + SLACK) + slack;
+        reach * reach
+    }
+
+    #[inline(always)]
+    pub(super) fn in_frame(&self, p: DVec3) -> Vec3 {
+        ((p - self.origin) * self.scale).as_vec3()
+    }
+
+    /// Whether any query may have a point of `leaf` within its reach.
+    #[inline(always)]
+    pub(super) fn any_within<const N: usize>(
+        &self,
+        leaf: usize,
+        queries: &[[f32; N]; 3],
+        reach_squared: &[f32; N],
+    ) -> bool {
+        self.levels[0][leaf / WIDTH].any_within(leaf % WIDTH, queries, reach_squared)
+    }
+
+    /// For each query the nearest point of a leaf: its squared distance, and its place in the leaf,
+    /// the lowest of equals.
+    #[inline(always)]
+    pub(super) fn nearest_in_leaf<const N: usize>(
+        &self,
+        leaf: usize,
+        queries: &[[f64; N]; 3],
+    ) -> ([f64; N], [f64; N]) {
+        let [xs, ys, zs] = &self.leaves[leaf];
+        let (mut least, mut which) = ([f64::INFINITY; N], [0.0; N]);
+        // A whole number as f64, as wide as what it goes along with.
+        let mut number = 0.0;
+        for j in 0..LEAF {
+            let (x, y, z) = (xs[j], ys[j], zs[j]);
+            for i in 0..N {
+                let d = [queries[0][i] - x, queries[1][i] - y, queries[2][i] - z];
+                let d = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+                let nearer = d < least[i];
+                least[i] = if nearer { d } else { least[i] };
+                which[i] = if nearer { number } else { which[i] };
+            }
+            number += 1.0;
+        }
+        (least, which)
+    }
+
     /// The positions of a leaf's points in the tree's order.
     #[inline(always)]
     pub(super) fn positions(&self, leaf: usize) -> std::ops::Range<usize> {
@@ -173,9 +226,9 @@ impl Tree {
 }
 
 fn extent(items: &[Item]) -> (DVec3, DVec3) {
-    items
-        .iter()
-        .fold((items[0].at, items[0].at), |(low, high), p| (low.min(p.at), high.max(p.at)))
+    items.iter().fold((items[0].at, items[0].at), |(low, high), p| {
+        (low.min(p.at), high.max(p.at))
+    })
 }
 
 /// Halves along the longest side, again and again, so that each leaf and each eight of them lie
