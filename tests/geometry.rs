@@ -116,16 +116,14 @@ proptest! {
         }
         let mut values: Vec<f64> = covariance.symmetric_eigen().eigenvalues.iter().copied().collect();
         values.sort_by(f64::total_cmp);
-        for e in 0..3 {
-            prop_assert!((spread.variances[e] - values[e].max(0.0)).abs() < 1e-14);
-            let a = spread.axes[e];
-            let v = covariance * nalgebra::Vector3::new(a.x, a.y, a.z) - nalgebra::Vector3::new(a.x, a.y, a.z) * spread.variances[e];
-            prop_assert!(v.norm() < 1e-14, "an eigenvector");
-            for f in 0..3 {
-                let same = if e == f { 1.0 } else { 0.0 };
-                prop_assert!((a.dot(spread.axes[f]) - same).abs() < 1e-14, "at right angles");
-            }
+        for ((&variance, axis), value) in spread.variances.iter().zip(spread.axes).zip(values) {
+            prop_assert!((variance - value.max(0.0)).abs() < 1e-14);
+            let a = nalgebra::Vector3::new(axis.x, axis.y, axis.z);
+            prop_assert!((covariance * a - a * variance).norm() < 1e-14, "an eigenvector");
+            prop_assert!((axis.length() - 1.0).abs() < 1e-14);
         }
+        let [a, b, c] = spread.axes;
+        prop_assert!(a.dot(b).abs() + a.dot(c).abs() + b.dot(c).abs() < 1e-14, "at right angles");
     }
 }
 
