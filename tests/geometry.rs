@@ -5,8 +5,8 @@ mod common;
 use std::num::NonZeroUsize;
 
 use axiscope::geometry::{
-    Cloud, Extent, Neighbors, angle_between_directions_rad, angle_between_lines_rad, estimate_normals,
-    statistical_inliers, voxel_grid,
+    Cloud, Extent, Neighbors, Spread, angle_between_directions_rad, angle_between_lines_rad,
+    estimate_normals, statistical_inliers, voxel_grid,
 };
 use common::{rotation, scattered, view};
 use glam::{DVec3, Vec3};
@@ -22,6 +22,109 @@ fn quantized(seed: u64, count: usize, steps: f64) -> Vec<DVec3> {
         .iter()
         .map(|p| (*p * steps).round() / steps)
         .collect()
+}
+
+/// Clouds that trees stumble over, moved far from the origin or not.
+fn awkward(kind: usize, seed: u64, count: usize, offset: f64) -> Vec<DVec3> {
+    let even = scattered(seed, count);
+    let shape = |p: DVec3| match kind {
+        0 => p,
+        1 => (p * 3.0).round() / 3.0,
+        2 => DVec3::new(p.x, p.x, -p.x),
+        3 => DVec3::new(p.x, p.y, 0.0),
+        4 => DVec3::new(1.0, p.y, 0.5 * p.x + p.y),
+        5 => p.round() + 1e-6 * p,
+        6 => p.normalize(),
+        _ => {
+            if p.x < 0.5 {
+                DVec3::splat(0.25)
+            } else {
+                p
+            }
+        }
+    };
+    even.iter().map(|&p| shape(p) + offset).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn the_nearest_is_exactly_the_nearest_on_awkward_clouds(
+        kind in 0usize..8, seed in 0u64..1000, count in 1usize..1200,
+        offset in prop::sample::select(vec![0.0, 1e6]), reach in prop::sample::select(vec![0.1, 1.0, 3.0, 1e4, 1e12]),
+    ) {
+        let points = awkward(kind, seed, count, offset);
+        let index = Neighbors::new(&points).unwrap();
+        let mut queries: Vec<DVec3> = scattered(seed + 1, 40).iter().map(|&p| p * reach + offset).collect();
+        // Where the points are, and mirrored as the method does, in an order in which they are close.
+        queries.extend(index.order().iter().take(100).map(|&i| points[i as usize]));
+        queries.extend(index.order().iter().take(100).map(|&i| (points[i as usize] - offset) * DVec3::new(1.0, -1.0, 1.0) + offset));
+        let together = index.nearest_of_each(&queries);
+        prop_assert_eq!(together.len(), queries.len());
+        for (&query, &found) in queries.iter().zip(&together) {
+            let (mut best, mut lowest) = (f64::INFINITY, 0);
+            for (i, p) in points.iter().enumerate() {
+                let d = p.distance_squared(query);
+                if d < best {
+                    (best, lowest) = (d, i);
+                }
+            }
+            prop_assert_eq!(found.distance_squared, best);
+            prop_assert_eq!(found.index, lowest, "the lowest index of those as near");
+            prop_assert_eq!(found.multiplicity, points.iter().filter(|p| **p == points[lowest]).count());
+            prop_assert_eq!(index.nearest(query), found);
+        }
+        let mut order = index.order().to_vec();
+        order.sort_unstable();
+        prop_assert!(order.iter().enumerate().all(|(i, &o)| i == o as usize), "each point once");
+    }
+
+    #[test]
+    fn the_nearest_places_are_exactly_those_on_awkward_clouds(
+        kind in 0usize..8, seed in 0u64..1000, count in 1usize..600, wanted in 1usize..50,
+        offset in prop::sample::select(vec![0.0, 1e6]), reach in prop::sample::select(vec![1.0, 1e4]),
+    ) {
+        let points = awkward(kind, seed, count, offset);
+        let index = Neighbors::new(&points).unwrap();
+        let queries = scattered(seed + 1, 10).into_iter().map(|p| p * reach + offset);
+        for query in queries.chain(points.iter().copied().take(10)) {
+            let mut expected: Vec<(f64, usize)> = Vec::new();
+            for (i, p) in points.iter().enumerate() {
+                if points.iter().position(|q| q == p) == Some(i) {
+                    expected.push((p.distance_squared(query), i));
+                }
+            }
+            expected.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let found = index.nearest_places(query, k(wanted));
+            prop_assert!(found.iter().zip(&expected).all(|(f, e)| (f.distance_squared, f.index) == *e));
+            let held = |n: usize| found[..n].iter().map(|f| f.multiplicity).sum::<usize>();
+            prop_assert!(held(found.len() - 1) < wanted, "no more places than it takes");
+            prop_assert!(held(found.len()) >= wanted || found.len() == expected.len());
+        }
+    }
+
+    #[test]
+    fn spreads_are_those_of_another_solver(kind in 0usize..8, seed in 0u64..1000, count in 1usize..60) {
+        let points = awkward(kind, seed, count, 0.0);
+        let spread = Spread::of_points(&points).unwrap();
+        let mut covariance = nalgebra::Matrix3::zeros();
+        for p in &points {
+            let q = *p - spread.mean;
+            let v = nalgebra::Vector3::new(q.x, q.y, q.z);
+            covariance += v * v.transpose() / count as f64;
+        }
+        let mut values: Vec<f64> = covariance.symmetric_eigen().eigenvalues.iter().copied().collect();
+        values.sort_by(f64::total_cmp);
+        for ((&variance, axis), value) in spread.variances.iter().zip(spread.axes).zip(values) {
+            prop_assert!((variance - value.max(0.0)).abs() < 1e-14);
+            let a = nalgebra::Vector3::new(axis.x, axis.y, axis.z);
+            prop_assert!((covariance * a - a * variance).norm() < 1e-14, "an eigenvector");
+            prop_assert!((axis.length() - 1.0).abs() < 1e-14);
+        }
+        let [a, b, c] = spread.axes;
+        prop_assert!(a.dot(b).abs() + a.dot(c).abs() + b.dot(c).abs() < 1e-14, "at right angles");
+    }
 }
 
 proptest! {

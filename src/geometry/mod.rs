@@ -4,6 +4,7 @@
 //! before it is shown; whoever wants `f32` (the GPU, a search) subtracts a nearby origin first.
 
 mod cloud;
+mod eigen;
 mod extent;
 mod filters;
 mod line;

@@ -26,12 +26,19 @@ pub fn estimate_normals(
     let Some(neighbors) = Neighbors::new(points) else {
         return Ok(Vec::new());
     };
+    // Neighbors of close points lie in the same memory.
+    let order = neighbors.order();
     let pieces = map_pieces(points.len(), PIECE, watch, |range| {
-        range
-            .map(|i| fitted_normal(points, &neighbors, points[i], k, viewpoint))
+        order[range]
+            .iter()
+            .map(|&i| fitted_normal(points, &neighbors, points[i as usize], k, viewpoint))
             .collect::<Vec<_>>()
     })?;
-    Ok(pieces.concat())
+    let mut normals = vec![None; points.len()];
+    for (&i, normal) in order.iter().zip(pieces.into_iter().flatten()) {
+        normals[i as usize] = normal;
+    }
+    Ok(normals)
 }
 
 fn fitted_normal(

@@ -40,3 +40,14 @@ pub fn map_pieces<T: Send>(
     #[cfg(not(feature = "parallel"))]
     (0..pieces).map(one).collect()
 }
+
+/// Runs both, at the same time where there are cores for it.
+pub(super) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
+    #[cfg(feature = "parallel")]
+    rayon::join(a, b);
+    #[cfg(not(feature = "parallel"))]
+    {
+        a();
+        b();
+    }
+}

@@ -1,7 +1,8 @@
 //! How points are spread: their mean, and the axes along which they vary.
 
 use glam::DVec3;
-use nalgebra::{Matrix3, SymmetricEigen};
+
+use super::eigen::symmetric_eigen;
 
 /// Mean and covariance of weighted points.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,18 +38,11 @@ impl Spread {
             m[4] += wq.y * q.z;
             m[5] += wq.z * q.z;
         }
-        let [xx, xy, xz, yy, yz, zz] = m.map(|v| v / weight);
-        let eigen = SymmetricEigen::new(Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz));
-        let mut order = [0, 1, 2];
-        order.sort_unstable_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-        let axis = |i: usize| {
-            let v = eigen.eigenvectors.column(i);
-            DVec3::new(v[0], v[1], v[2])
-        };
+        let (variances, axes) = symmetric_eigen(m.map(|v| v / weight));
         Some(Self {
             mean,
-            variances: order.map(|i| eigen.eigenvalues[i].max(0.0)),
-            axes: order.map(axis),
+            variances: variances.map(|v| v.max(0.0)),
+            axes,
         })
     }
 

@@ -76,21 +76,28 @@ pub fn terms_of_planes(
     let Some(neighbors) = Neighbors::new(surface.points()) else {
         return Ok(vec![PlaneTerm::default(); planes.len()]);
     };
+    // Points in an order in which each asks for nearly what the one before it asked for.
+    let order = neighbors.order();
     // One run of pieces over all planes' points, plane after plane, so that many cores find work
     // even where the planes are few.
     let pieces_a_plane = surface.len().div_ceil(PIECE);
     let partial = map_pieces(planes.len() * pieces_a_plane, 1, watch, |range| {
         let (plane, piece) = (range.start / pieces_a_plane, range.start % pieces_a_plane);
-        let points = piece * PIECE..((piece + 1) * PIECE).min(surface.len());
+        let range = piece * PIECE..((piece + 1) * PIECE).min(surface.len());
         let mut sum = PlaneTerm::default();
-        for i in points {
-            if let Some((_, distance, angle_rad)) =
-                partner_of(surface, &neighbors, &planes[plane], viewpoint, i)
-            {
-                sum.partners += 1;
-                sum.distance_sum_cm += distance * unit.in_cm();
-                sum.angle_sum_rad += angle_rad;
-            }
+        let plane = &planes[plane];
+        let (points, normals) = (surface.points(), surface.normals());
+        let visible: Vec<usize> = order[range]
+            .iter()
+            .map(|&i| i as usize)
+            .filter(|&i| has_visible_partner(plane, points[i], normals[i], viewpoint))
+            .collect();
+        let reflected: Vec<DVec3> = visible.iter().map(|&i| plane.reflect_point(points[i])).collect();
+        for (i, nearest) in visible.into_iter().zip(neighbors.nearest_of_each(&reflected)) {
+            sum.partners += 1;
+            sum.distance_sum_cm += nearest.distance_squared.sqrt() * unit.in_cm();
+            sum.angle_sum_rad +=
+                angle_between_directions_rad(plane.reflect_direction(normals[i]), normals[nearest.index]);
         }
         sum
     })?;
