@@ -18,7 +18,7 @@ pub enum TableError {
     #[error("the CSV could not be written: {0}")]
     Csv(String),
     /// As Parquet.
-    #[error("the Parquet file could not be written: {0}")]
+    #[error("the Parquet file could not be written")]
     Parquet(#[from] ParquetError),
 }
 

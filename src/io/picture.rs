@@ -33,10 +33,10 @@ pub enum PictureError {
     #[error("the picture's texts could not be drawn: {0}")]
     Paint(String),
     /// The PNG could not be encoded.
-    #[error("the PNG could not be made: {0}")]
+    #[error("the PNG could not be made")]
     Encode(#[from] png::EncodingError),
     /// These bytes are no PNG.
-    #[error("this is no PNG file: {0}")]
+    #[error("this is no PNG file")]
     Decode(#[from] png::DecodingError),
     /// The PNG was not drawn by this program.
     #[error(
@@ -44,7 +44,7 @@ pub enum PictureError {
     )]
     NoSettings,
     /// The settings cannot be understood.
-    #[error("the settings in this PNG cannot be read: {0}")]
+    #[error("the settings in this PNG cannot be read")]
     BadSettings(#[from] serde_json::Error),
 }
 
