@@ -2,8 +2,10 @@
 
 mod common;
 
-use axiscope::geometry::{Plane, Unit};
-use axiscope::method::{CandidateGrid, PlaneTerm, Surface, plane_detail, plane_terms, terms_of_planes};
+use axiscope::geometry::{Plane, Unit, angle_between_directions_rad};
+use axiscope::method::{
+    CandidateGrid, PlaneTerm, Side, Surface, has_visible_partner, plane_detail, plane_terms, terms_of_planes,
+};
 use common::{moved, rotation, scattered, view};
 use glam::DVec3;
 use proptest::prelude::*;
@@ -106,6 +108,17 @@ proptest! {
             let nearest = v.points.iter().map(|q| q.distance(reflected)).fold(f64::INFINITY, f64::min);
             prop_assert!((partner.distance_cm - 100.0 * nearest).abs() < 1e-9);
         }
+        // And everything else is what the equations say of the point alone.
+        for (i, point) in detail.points.iter().enumerate() {
+            let (p, n) = (surface.points()[i], surface.normals()[i]);
+            prop_assert_eq!(point.partner.is_some(), has_visible_partner(&plane, p, n, DVec3::ZERO));
+            prop_assert_eq!(point.side == Side::Front, plane.signed_distance(p) >= 0.0);
+            if let Some(partner) = point.partner {
+                let reflected = plane.reflect_direction(n);
+                let angle = angle_between_directions_rad(reflected, surface.normals()[partner.index]);
+                prop_assert!((partner.angle_rad - angle).abs() < 1e-14, "{} {angle}", partner.angle_rad);
+            }
+        }
     }
 }
 
@@ -130,4 +143,31 @@ fn a_point_has_no_partner_where_its_mirror_image_faces_away() {
         .map(|n| terms_of_planes(&surface, Unit::Centimeter, &[plane(n)], DVec3::ZERO, &()).unwrap()[0]);
     assert_eq!(across.partners, 0);
     assert_eq!(along.partners, visible.len());
+}
+
+#[test]
+fn angles_of_partners_keep_their_digits_from_zero_to_pi() {
+    // Points in the mirror plane are their own partners, and a normal that leans by half an angle
+    // meets its mirror image at the whole.
+    let angles = (0..=400).map(|i| f64::from(i) * std::f64::consts::PI / 400.0);
+    let angles: Vec<f64> = [1e-12, 1e-7, 1e-3].into_iter().chain(angles).collect();
+    let at = |i: usize| DVec3::new(0.0, 0.01 * i as f64, 20.0 + (0.3 * i as f64).sin());
+    let points: Vec<_> = (0..angles.len()).map(at).collect();
+    let lean = |&a: &f64| DVec3::new((0.5 * a).sin(), 0.0, -(0.5 * a).cos());
+    let normals: Vec<_> = angles.iter().map(lean).collect();
+    let plane = Plane {
+        point: DVec3::ZERO,
+        normal: DVec3::X,
+    };
+    let surface = surface(&points, &normals);
+    let detail = plane_detail(&surface, Unit::Centimeter, plane, DVec3::ZERO, &()).unwrap();
+    let mut seen = 0;
+    for (point, angle) in detail.points.iter().zip(&angles) {
+        if let Some(partner) = point.partner {
+            let off = (partner.angle_rad - angle).abs();
+            assert!(off <= 4e-16 * (1.0 + angle), "{} {angle}", partner.angle_rad);
+            seen += 1;
+        }
+    }
+    assert!(seen >= 400, "{seen}");
 }

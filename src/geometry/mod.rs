@@ -19,6 +19,7 @@ mod watch;
 pub use cloud::{Cloud, LengthMismatch};
 pub use extent::Extent;
 pub use filters::{statistical_inliers, voxel_grid};
+pub(crate) use line::angles_between_directions_rad;
 pub use line::{angle_between_directions_rad, angle_between_lines_rad};
 pub use neighbors::{Neighbor, Neighbors};
 pub use normals::estimate_normals;

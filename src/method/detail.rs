@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::Surface;
-use super::terms::partner_of;
-use crate::geometry::map_pieces;
-use crate::geometry::{Cancelled, Neighbors, Plane, Unit, Watch};
+use super::partners::Ordered;
+use super::terms::PIECE;
+use crate::geometry::{Cancelled, Plane, Unit, Watch, map_pieces};
 
 /// Which side of a plane a point lies on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -64,26 +64,32 @@ pub fn plane_detail(
     viewpoint: DVec3,
     watch: &dyn Watch,
 ) -> Result<PlaneDetail, Cancelled> {
-    let neighbors = Neighbors::new(surface.points());
-    let detail = |i: usize| {
-        let partner = neighbors
-            .as_ref()
-            .and_then(|n| partner_of(surface, n, &plane, viewpoint, i))
-            .map(|(index, distance, angle_rad)| Partner {
-                index,
-                distance_cm: distance * unit.in_cm(),
-                angle_rad,
-            });
-        let side = if plane.signed_distance(surface.points()[i]) >= 0.0 {
+    let side = |&point: &DVec3| {
+        if plane.signed_distance(point) >= 0.0 {
             Side::Front
         } else {
             Side::Back
-        };
-        PointDetail { side, partner }
+        }
     };
-    let points = map_pieces(surface.len(), 2048, watch, |range| {
-        range.map(detail).collect::<Vec<_>>()
-    })?
-    .concat();
+    let mut points: Vec<PointDetail> = (surface.points().iter())
+        .map(|point| PointDetail {
+            side: side(point),
+            partner: None,
+        })
+        .collect();
+    if let Some(ordered) = Ordered::new(surface) {
+        let pieces = map_pieces(surface.len(), PIECE, watch, |range| {
+            ordered.partners(range, &plane, viewpoint)
+        })?;
+        for found in pieces {
+            for (k, &i) in found.point.iter().enumerate() {
+                points[i as usize].partner = Some(Partner {
+                    index: found.index[k] as usize,
+                    distance_cm: found.distance[k] * unit.in_cm(),
+                    angle_rad: found.angle_rad[k],
+                });
+            }
+        }
+    }
     Ok(PlaneDetail { plane, points })
 }

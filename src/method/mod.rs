@@ -15,6 +15,7 @@ mod candidates;
 mod center;
 mod detail;
 mod params;
+mod partners;
 mod score;
 mod surface;
 mod terms;

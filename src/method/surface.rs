@@ -1,10 +1,11 @@
 //! The points that the method works on, each with a unit normal.
 
 use std::num::NonZeroUsize;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 
-use crate::geometry::{Cancelled, Cloud, Spread, Watch, estimate_normals};
+use crate::geometry::{Cancelled, Cloud, Neighbors, Spread, Watch, estimate_normals};
 
 /// Why a cloud is no surface that the method could work on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -47,11 +48,19 @@ pub enum SurfaceError {
 }
 
 /// The used points of a cloud: those that have a normal. In the file's unit and frame.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Surface {
     points: Vec<DVec3>,
     normals: Vec<DVec3>,
     source: Vec<usize>,
+    /// Built when it is first asked for, once for all planes and all their details.
+    neighbors: OnceLock<Option<Arc<Neighbors>>>,
+}
+
+impl PartialEq for Surface {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.points, &self.normals, &self.source) == (&other.points, &other.normals, &other.source)
+    }
 }
 
 impl Surface {
@@ -108,6 +117,7 @@ impl Surface {
             points: Vec::with_capacity(points.len()),
             normals: Vec::with_capacity(points.len()),
             source: Vec::with_capacity(points.len()),
+            neighbors: OnceLock::new(),
         };
         for (i, normal) in normals.enumerate() {
             if let Some(normal) = normal {
@@ -148,6 +158,14 @@ impl Surface {
     /// For each point its index in the cloud that it came from, ascending.
     pub fn source(&self) -> &[usize] {
         &self.source
+    }
+
+    /// The index of the points that all planes share, built by the first call. `None` where there
+    /// are more points than it holds, [`u32::MAX`].
+    pub fn neighbors(&self) -> Option<&Neighbors> {
+        (self.neighbors)
+            .get_or_init(|| Neighbors::new(&self.points).map(Arc::new))
+            .as_deref()
     }
 
     /// How many normals face away from `viewpoint` (Eq. 11 fails for them).

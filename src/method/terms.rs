@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::{CandidateGrid, Surface, has_visible_partner};
-use crate::geometry::map_pieces;
-use crate::geometry::{Cancelled, Neighbors, Plane, Unit, Watch, angle_between_directions_rad};
+use super::partners::Ordered;
+use super::{CandidateGrid, Surface};
+use crate::geometry::{Cancelled, Plane, Unit, Watch, map_pieces};
 
 /// The sums over one plane's points that have a visible partner. The score for any τ and any
 /// aggregation follows from them.
@@ -33,7 +33,7 @@ pub struct PlaneTerms {
 
 /// Points that are summed in one go. Part of what makes a result repeat: the sums are added in this
 /// order whatever the number of threads.
-const PIECE: usize = 2048;
+pub(super) const PIECE: usize = 2048;
 
 /// Computes every candidate plane's terms on `surface`, for planes through `center`, seen from
 /// `viewpoint` (both in the surface's unit and frame).
@@ -73,33 +73,21 @@ pub fn terms_of_planes(
     viewpoint: DVec3,
     watch: &dyn Watch,
 ) -> Result<Vec<PlaneTerm>, Cancelled> {
-    let Some(neighbors) = Neighbors::new(surface.points()) else {
+    let Some(ordered) = Ordered::new(surface) else {
         return Ok(vec![PlaneTerm::default(); planes.len()]);
     };
-    // Points in an order in which each asks for nearly what the one before it asked for.
-    let order = neighbors.order();
     // One run of pieces over all planes' points, plane after plane, so that many cores find work
     // even where the planes are few.
     let pieces_a_plane = surface.len().div_ceil(PIECE);
     let partial = map_pieces(planes.len() * pieces_a_plane, 1, watch, |range| {
         let (plane, piece) = (range.start / pieces_a_plane, range.start % pieces_a_plane);
         let range = piece * PIECE..((piece + 1) * PIECE).min(surface.len());
-        let mut sum = PlaneTerm::default();
-        let plane = &planes[plane];
-        let (points, normals) = (surface.points(), surface.normals());
-        let visible: Vec<usize> = order[range]
-            .iter()
-            .map(|&i| i as usize)
-            .filter(|&i| has_visible_partner(plane, points[i], normals[i], viewpoint))
-            .collect();
-        let reflected: Vec<DVec3> = visible.iter().map(|&i| plane.reflect_point(points[i])).collect();
-        for (i, nearest) in visible.into_iter().zip(neighbors.nearest_of_each(&reflected)) {
-            sum.partners += 1;
-            sum.distance_sum_cm += nearest.distance_squared.sqrt() * unit.in_cm();
-            sum.angle_sum_rad +=
-                angle_between_directions_rad(plane.reflect_direction(normals[i]), normals[nearest.index]);
+        let found = ordered.partners(range, &planes[plane], viewpoint);
+        PlaneTerm {
+            partners: found.point.len(),
+            distance_sum_cm: found.distance.iter().map(|d| d * unit.in_cm()).sum(),
+            angle_sum_rad: found.angle_rad.iter().sum(),
         }
-        sum
     })?;
     let whole = |pieces: &[PlaneTerm]| {
         pieces.iter().fold(PlaneTerm::default(), |sum, piece| PlaneTerm {
@@ -109,23 +97,4 @@ pub fn terms_of_planes(
         })
     };
     Ok(partial.chunks(pieces_a_plane).map(whole).collect())
-}
-
-/// The partner of point `i` under `plane`: its index in the surface, d in the surface's unit, and ξ
-/// in radians; `None` where it has no visible one.
-pub(super) fn partner_of(
-    surface: &Surface,
-    neighbors: &Neighbors,
-    plane: &Plane,
-    viewpoint: DVec3,
-    i: usize,
-) -> Option<(usize, f64, f64)> {
-    let (point, normal) = (surface.points()[i], surface.normals()[i]);
-    if !has_visible_partner(plane, point, normal, viewpoint) {
-        return None;
-    }
-    let nearest = neighbors.nearest(plane.reflect_point(point));
-    let angle_rad =
-        angle_between_directions_rad(plane.reflect_direction(normal), surface.normals()[nearest.index]);
-    Some((nearest.index, nearest.distance_squared.sqrt(), angle_rad))
 }

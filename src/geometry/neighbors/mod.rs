@@ -17,14 +17,16 @@
     reason = "where rounding left no number, a box must be looked into"
 )]
 
+mod block;
 mod boxes;
 mod places;
 mod tree;
 
 use std::num::NonZeroUsize;
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
+use block::{BLOCK, Block};
 use places::distinct_places;
 use tree::{Item, LEAF, Tree};
 
@@ -38,9 +40,6 @@ pub struct Neighbor {
     /// How many points lie exactly here.
     pub multiplicity: usize,
 }
-
-/// Queries that walk through the tree together.
-const BLOCK: usize = 16;
 
 /// An index of points for exact nearest-neighbor queries.
 ///
@@ -120,27 +119,52 @@ impl Neighbors {
     /// The place nearest to `query`, which must be finite; of several as near the one of the lowest
     /// index.
     pub fn nearest(&self, query: DVec3) -> Neighbor {
-        let start = self.tree.descend(query);
+        self.nearest_from(self.tree.descend(query), query)
+    }
+
+    /// [`Neighbors::nearest`], with a leaf that holds places nearby.
+    #[inline(always)]
+    fn nearest_from(&self, start: usize, query: DVec3) -> Neighbor {
         // The first place there stands in where every distance overflows.
         let mut best = (f64::INFINITY, start * LEAF);
         self.look_into(start, query, &mut best);
-        self.tree.walk(query, best.0, |leaf, _| {
+        let in_frame = self.tree.in_frame(query).as_vec3();
+        let mut reach = self.tree.reach_squared(in_frame, best.0);
+        let mut walk = self.tree.walk(in_frame);
+        while let Some(leaf) = walk.next(&self.tree, reach) {
             if leaf != start {
                 self.look_into(leaf, query, &mut best);
+                reach = self.tree.reach_squared(in_frame, best.0);
             }
-            best.0
-        });
+        }
         self.neighbor(best.1, best.0)
     }
 
     #[inline(always)]
     fn look_into(&self, leaf: usize, query: DVec3, best: &mut (f64, usize)) {
         let distances = self.tree.leaf_distances_squared(leaf, query);
-        for position in self.tree.positions(leaf) {
-            let d = distances[position % LEAF];
-            if d < best.0 || (d == best.0 && self.first[position] < self.first[best.1]) {
-                *best = (d, position);
+        // Halved again and again, as vectors can.
+        let mut least = distances;
+        let mut half = LEAF / 2;
+        while half > 0 {
+            for i in 0..half {
+                let (a, b) = (least[i], least[i + half]);
+                least[i] = if b < a { b } else { a };
             }
+            half /= 2;
+        }
+        let least = least[0];
+        let mut equal = 0u32;
+        for i in 0..LEAF {
+            equal |= u32::from(distances[i] == least) << i;
+        }
+        // The first of equals is the lowest. Where all overflow none may be equal, or one that is
+        // left over.
+        let position = leaf * LEAF + equal.trailing_zeros() as usize;
+        if least < best.0
+            || (least == best.0 && least < f64::INFINITY && self.first[position] < self.first[best.1])
+        {
+            *best = (least, position);
         }
     }
 
@@ -185,10 +209,12 @@ impl Neighbors {
         }
         let (_, &mut (limit, _), _) = found.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
         found.clear();
-        self.tree.walk(query, limit, |leaf, _| {
+        let in_frame = self.tree.in_frame(query).as_vec3();
+        let reach = self.tree.reach_squared(in_frame, limit);
+        let mut walk = self.tree.walk(in_frame);
+        while let Some(leaf) = walk.next(&self.tree, reach) {
             self.collect(leaf, query, limit, found);
-            limit
-        });
+        }
         let by_distance = |a: &(f64, u32), b: &(f64, u32)| {
             (a.0.total_cmp(&b.0)).then_with(|| self.first[a.1 as usize].cmp(&self.first[b.1 as usize]))
         };
@@ -231,6 +257,9 @@ impl Neighbors {
     }
 }
 
+/// How many queries of a block the next one starts from.
+const SEEDS: usize = 3;
+
 /// [`Neighbors::nearest_of_each`] as what can be built once for each kind of vector instructions:
 /// all that it calls in its loops is inlined into it.
 struct NearestOfEach<'a> {
@@ -245,97 +274,42 @@ impl pulp::NullaryFnOnce for NearestOfEach<'_> {
     fn call(self) -> Vec<Neighbor> {
         let (index, tree) = (self.index, &self.index.tree);
         let mut found = Vec::with_capacity(self.queries.len());
-        let mut near = Vec::new();
-        let mut start = None;
+        let mut start = [usize::MAX; SEEDS];
         for queries in self.queries.chunks(BLOCK) {
-            let center = queries.iter().sum::<DVec3>() / queries.len() as f64;
-            let first = start.unwrap_or_else(|| tree.descend(center));
-            let mut block = Block::new(index, queries, first);
-            block.look_into(index, first);
-            let limit_squared = block.limit_squared(queries, center);
-            near.clear();
-            tree.walk(center, limit_squared, |leaf, distance| {
-                near.push((distance, leaf));
-                limit_squared
-            });
-            // The nearest first, so that most of the others need not be looked into.
-            near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            for &(_, leaf) in &near {
-                if leaf != first && tree.any_within(leaf, &block.in_frame, &block.reach_squared) {
-                    block.look_into(index, leaf);
+            if start[0] == usize::MAX {
+                start = [tree.descend(queries[0]); SEEDS];
+            }
+            let Some(mut block) = Block::new(tree, queries, start[0]) else {
+                found.extend(queries.iter().map(|&q| index.nearest(q)));
+                continue;
+            };
+            // Where the queries before these found theirs, so that hardly anything else is in reach.
+            for (i, &leaf) in start.iter().enumerate() {
+                if !start[..i].contains(&leaf) {
+                    block.look_into(tree, leaf);
                 }
             }
-            start = Some(block.position[0] / LEAF);
-            for i in 0..queries.len() {
-                found.push(index.neighbor(block.position[i], block.best[i]));
+            block.update_reach();
+            let mut walk = tree.walk(block.center());
+            while let Some(leaf) = walk.next(tree, block.center_reach_squared()) {
+                if !start.contains(&leaf) && block.may_find_in(tree, leaf) && block.look_into(tree, leaf) {
+                    block.update_reach();
+                }
+            }
+            for (i, &query) in queries.iter().enumerate() {
+                let (leaf, surely) = block.found(i);
+                found.push(if surely {
+                    let mut best = (f64::INFINITY, leaf * LEAF);
+                    index.look_into(leaf, query, &mut best);
+                    index.neighbor(best.1, best.0)
+                } else {
+                    index.nearest_from(leaf, query)
+                });
+            }
+            for s in 0..SEEDS {
+                start[s] = block.found(s * (BLOCK - 1) / (SEEDS - 1)).0;
             }
         }
         found
-    }
-}
-
-/// Queries that walk through the tree together, and what they have found so far.
-struct Block {
-    queries: [[f64; BLOCK]; 3],
-    /// The queries in the boxes' frame.
-    in_frame: [[f32; BLOCK]; 3],
-    /// How far, in that frame, a box may be from a query and hold something nearer.
-    reach_squared: [f32; BLOCK],
-    /// The squared distances of what is nearest so far.
-    best: [f64; BLOCK],
-    /// Where that stands in the tree's order.
-    position: [usize; BLOCK],
-}
-
-impl Block {
-    /// A short block is filled up with its last query. The first place of leaf `first` stands in
-    /// where every distance overflows.
-    #[inline(always)]
-    fn new(index: &Neighbors, queries: &[DVec3], first: usize) -> Self {
-        let mut block = Self {
-            queries: [[0.0; BLOCK]; 3],
-            in_frame: [[0.0; BLOCK]; 3],
-            reach_squared: [f32::INFINITY; BLOCK],
-            best: [f64::INFINITY; BLOCK],
-            position: [first * LEAF; BLOCK],
-        };
-        for i in 0..BLOCK {
-            let query = queries[i.min(queries.len() - 1)];
-            let in_frame = index.tree.in_frame(query);
-            for e in 0..3 {
-                block.queries[e][i] = query[e];
-                block.in_frame[e][i] = in_frame[e];
-            }
-        }
-        block
-    }
-
-    #[inline(always)]
-    fn look_into(&mut self, index: &Neighbors, leaf: usize) {
-        let (least, which) = index.tree.nearest_in_leaf(leaf, &self.queries);
-        for i in 0..BLOCK {
-            if least[i] > self.best[i] || least[i] == f64::INFINITY {
-                continue;
-            }
-            let there = leaf * LEAF + which[i] as usize;
-            if least[i] < self.best[i] || index.first[there] < index.first[self.position[i]] {
-                (self.best[i], self.position[i]) = (least[i], there);
-                let in_frame = Vec3::from_array(self.in_frame.map(|c| c[i]));
-                self.reach_squared[i] = index.tree.reach_squared(in_frame, least[i]);
-            }
-        }
-    }
-
-    /// How far from `center` something nearer to any of the queries may be, squared.
-    #[inline(always)]
-    fn limit_squared(&self, queries: &[DVec3], center: DVec3) -> f64 {
-        let larger = |a: f64, b: f64| if b > a { b } else { a };
-        let radius_squared = queries
-            .iter()
-            .fold(0.0, |a, q| larger(a, center.distance_squared(*q)));
-        let best = self.best.iter().fold(0.0, |a, &b| larger(a, b));
-        // A hair more than it is, against rounding.
-        let limit = (best.sqrt() + radius_squared.sqrt()) * (1.0 + 1e-12);
-        limit * limit
     }
 }

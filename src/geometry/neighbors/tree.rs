@@ -22,9 +22,46 @@ pub(super) struct Item {
 /// Points of a leaf, coordinate by coordinate; what is left over lies at infinity.
 type Leaf = [[f64; LEAF]; 3];
 
+/// The same points in single precision, seen from the leaf's center, in the tree's frame.
+#[derive(Debug)]
+pub(super) struct Near {
+    /// -2 times their coordinates.
+    pub(super) minus_twice: [[f32; LEAF]; 3],
+    /// Their squared distances from the center; what is left over lies at infinity.
+    pub(super) squared: [f32; LEAF],
+    /// The largest distance from the center, or a little more.
+    pub(super) radius: f32,
+    /// In the tree's frame.
+    center: [f64; 3],
+}
+
+impl Near {
+    fn new(chunk: &[Item], in_frame: impl Fn(DVec3) -> DVec3) -> Self {
+        let (low, high) = extent(chunk);
+        let center = in_frame(low + 0.5 * (high - low));
+        let mut near = Self {
+            minus_twice: [[0.0; LEAF]; 3],
+            squared: [f32::INFINITY; LEAF],
+            radius: 0.0,
+            center: center.to_array(),
+        };
+        for (i, item) in chunk.iter().enumerate() {
+            let p = (in_frame(item.at) - center).as_vec3();
+            for e in 0..3 {
+                near.minus_twice[e][i] = -2.0 * p[e];
+            }
+            near.squared[i] = p.as_dvec3().length_squared() as f32;
+            near.radius = near.radius.max(p.length());
+        }
+        near.radius *= 1.0 + 1e-6;
+        near
+    }
+}
+
 #[derive(Debug)]
 pub(super) struct Tree {
     leaves: Vec<Leaf>,
+    near: Vec<Near>,
     /// The leaves' boxes, then those of eight leaves each, up to a single group.
     levels: Vec<Vec<Boxes>>,
     len: usize,
@@ -59,6 +96,10 @@ impl Tree {
                 leaf
             })
             .collect();
+        let near = items
+            .chunks(LEAF)
+            .map(|chunk| Near::new(chunk, |p| (p - origin) * scale))
+            .collect();
         let mut levels = Vec::new();
         let mut size = LEAF;
         loop {
@@ -81,6 +122,7 @@ impl Tree {
         }
         Self {
             leaves,
+            near,
             levels,
             len,
             origin,
@@ -100,52 +142,25 @@ impl Tree {
         sum
     }
 
-    /// Walks over all leaves that may hold a point within `limit_squared` of `q`, and perhaps some
-    /// more. `visit` gets each and returns the limit from there on, which must not grow.
+    /// Walks over all leaves that may hold a point within a reach of `from`, which is in
+    /// the boxes' frame, and perhaps some more.
     #[inline(always)]
-    pub(super) fn walk(&self, q: DVec3, mut limit_squared: f64, mut visit: impl FnMut(usize, f32) -> f64) {
-        let q = self.in_frame(q);
-        let reach_squared = |limit_squared| self.reach_squared(q, limit_squared);
-        let in_frame = q.to_array();
-        let mut reach = reach_squared(limit_squared);
+    pub(super) fn walk(&self, from: Vec3) -> Walk {
         let mut stack = [(0.0, 0u32, 0u32); 12 * WIDTH];
         stack[0].1 = self.levels.len() as u32 - 1;
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let (distance, level, group) = stack[height];
-            if distance > reach {
-                continue;
-            }
-            let distances = self.levels[level as usize][group as usize].distances_squared(in_frame);
-            let mut near = 0u32;
-            for (i, d) in distances.iter().enumerate() {
-                // Where rounding left no number, better look.
-                near |= u32::from(!(*d > reach)) << i;
-            }
-            while near != 0 {
-                let i = near.trailing_zeros() as usize;
-                near &= near - 1;
-                let below = group as usize * WIDTH + i;
-                if level > 0 {
-                    if below < self.levels[level as usize - 1].len() {
-                        stack[height] = (distances[i], level - 1, below as u32);
-                        height += 1;
-                    }
-                } else if !(distances[i] > reach) && below < self.leaves.len() {
-                    let limit = visit(below, distances[i]);
-                    if limit != limit_squared {
-                        limit_squared = limit;
-                        reach = reach_squared(limit);
-                    }
-                }
-            }
+        Walk {
+            from: from.to_array(),
+            stack,
+            height: 1,
+            near: 0,
+            group: 0,
+            distances: [0.0; WIDTH],
         }
     }
 
     /// A leaf near `q`, down the nearest boxes.
     pub(super) fn descend(&self, q: DVec3) -> usize {
-        let in_frame = self.in_frame(q).to_array();
+        let in_frame = self.in_frame(q).as_vec3().to_array();
         let mut group = 0;
         for (level, boxes) in self.levels.iter().enumerate().rev() {
             let distances = boxes[group].distances_squared(in_frame);
@@ -163,8 +178,8 @@ impl Tree {
         group
     }
 
-    /// How far a box may seem to be from a query in the boxes' frame and still hold a point within
-    /// the root of `limit_squared` of it, squared.
+    /// How far a box may seem to be from a query and still hold a point within the root of
+    /// `limit_squared` of it, squared.
     #[inline(always)]
     pub(super) fn reach_squared(&self, in_frame: Vec3, limit_squared: f64) -> f32 {
         let slack = SLACK * (1.0 + in_frame.length());
@@ -173,8 +188,18 @@ impl Tree {
     }
 
     #[inline(always)]
-    pub(super) fn in_frame(&self, p: DVec3) -> Vec3 {
-        ((p - self.origin) * self.scale).as_vec3()
+    pub(super) fn in_frame(&self, p: DVec3) -> DVec3 {
+        (p - self.origin) * self.scale
+    }
+
+    #[inline(always)]
+    pub(super) fn leaf_center(&self, leaf: usize) -> [f64; 3] {
+        self.near[leaf].center
+    }
+
+    #[inline(always)]
+    pub(super) fn leaf_near(&self, leaf: usize) -> &Near {
+        &self.near[leaf]
     }
 
     /// Whether any query may have a point of `leaf` within its reach.
@@ -188,32 +213,6 @@ impl Tree {
         self.levels[0][leaf / WIDTH].any_within(leaf % WIDTH, queries, reach_squared)
     }
 
-    /// For each query the nearest point of a leaf: its squared distance, and its place in the leaf,
-    /// the lowest of equals.
-    #[inline(always)]
-    pub(super) fn nearest_in_leaf<const N: usize>(
-        &self,
-        leaf: usize,
-        queries: &[[f64; N]; 3],
-    ) -> ([f64; N], [f64; N]) {
-        let [xs, ys, zs] = &self.leaves[leaf];
-        let (mut least, mut which) = ([f64::INFINITY; N], [0.0; N]);
-        // A whole number as f64, as wide as what it goes along with.
-        let mut number = 0.0;
-        for j in 0..LEAF {
-            let (x, y, z) = (xs[j], ys[j], zs[j]);
-            for i in 0..N {
-                let d = [queries[0][i] - x, queries[1][i] - y, queries[2][i] - z];
-                let d = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-                let nearer = d < least[i];
-                least[i] = if nearer { d } else { least[i] };
-                which[i] = if nearer { number } else { which[i] };
-            }
-            number += 1.0;
-        }
-        (least, which)
-    }
-
     /// The positions of a leaf's points in the tree's order.
     #[inline(always)]
     pub(super) fn positions(&self, leaf: usize) -> std::ops::Range<usize> {
@@ -222,6 +221,66 @@ impl Tree {
 
     pub(super) fn len(&self) -> usize {
         self.len
+    }
+}
+
+/// A walk from box to box, down to the leaves. No iterator and without closures, since only what is
+/// inlined is built for each kind of vector instructions.
+pub(super) struct Walk {
+    from: [f32; 3],
+    /// Distances, levels and numbers of the groups to go into.
+    stack: [(f32, u32, u32); 12 * WIDTH],
+    height: usize,
+    /// Which leaves of `group` are still to be visited, a bit each, and how far all of them are.
+    near: u32,
+    group: usize,
+    distances: [f32; WIDTH],
+}
+
+impl Walk {
+    /// The next leaf within the root of `reach_squared`, which must not grow from call to call.
+    #[inline(always)]
+    pub(super) fn next(&mut self, tree: &Tree, reach_squared: f32) -> Option<usize> {
+        loop {
+            while self.near != 0 {
+                let i = self.near.trailing_zeros() as usize;
+                self.near &= self.near - 1;
+                let leaf = self.group * WIDTH + i;
+                // Where rounding left no number, better look.
+                if !(self.distances[i] > reach_squared) && leaf < tree.leaves.len() {
+                    return Some(leaf);
+                }
+            }
+            if self.height == 0 {
+                return None;
+            }
+            self.height -= 1;
+            let (distance, level, group) = self.stack[self.height];
+            if distance > reach_squared {
+                continue;
+            }
+            let (level, group) = (level as usize, group as usize);
+            let distances = tree.levels[level][group].distances_squared(self.from);
+            // Bit after bit and then all at once, as vectors can.
+            let mut bits = [0u32; WIDTH];
+            for i in 0..WIDTH {
+                bits[i] = if distances[i] > reach_squared { 0 } else { 1 << i };
+            }
+            let mut near = bits.iter().fold(0, |all, bit| all | bit);
+            if level == 0 {
+                (self.near, self.group, self.distances) = (near, group, distances);
+                continue;
+            }
+            while near != 0 {
+                let i = near.trailing_zeros() as usize;
+                near &= near - 1;
+                let below = group * WIDTH + i;
+                if below < tree.levels[level - 1].len() {
+                    self.stack[self.height] = (distances[i], level as u32 - 1, below as u32);
+                    self.height += 1;
+                }
+            }
+        }
     }
 }
 
