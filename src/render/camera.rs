@@ -1,11 +1,12 @@
 //! An orbit camera: where the eye is, which way it looks, and how the world lands on pixels.
 
 use glam::{DMat4, DQuat, DVec2, DVec3, DVec4};
+use serde::{Deserialize, Serialize};
 
 use super::Bounds;
 
 /// How depth shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Projection {
     /// Near things are larger.
     Perspective,
@@ -64,7 +65,7 @@ pub struct Ray {
 /// the picture's upper left corner, their centers at halves.
 ///
 /// Eye and pivot are kept apart, so that picking another pivot leaves the picture as it is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
     /// Where the eye is.
     pub eye_in_world: DVec3,

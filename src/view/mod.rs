@@ -13,11 +13,11 @@ mod scene;
 mod shown;
 
 pub use annotation::{Anchor, Annotation, Theme};
-pub use coloring::{Colored, Coloring, ColoringError, Subject, color_points};
+pub use coloring::{Colored, Coloring, ColoringError, Subject, color_bare, color_points};
 pub use layout::{Page, annotate, insets};
 pub use legend::{Legend, Ramp, Swatch};
 pub use overlays::{Overlay, Overlays};
 pub use palette::{NEUTRAL, VALUE_STOPS, value_color};
 pub use preset::ViewPreset;
-pub use scene::{SceneSettings, build_scene, framed_points};
+pub use scene::{SceneSettings, build_bare_scene, build_scene, framed_cloud, framed_points};
 pub use shown::ShownPoints;
