@@ -112,6 +112,16 @@ impl Fruit {
         })
     }
 
+    /// With what the simulator knows of the cloud, as the text of a truth file.
+    #[must_use]
+    pub fn with_truth(mut self, name: &Path, text: &str) -> Self {
+        match parse_truth(name, text) {
+            Ok(truth) => self.truth = Some(truth.in_unit(self.unit)),
+            Err(problem) => self.warnings.push(problem),
+        }
+        self
+    }
+
     /// The file's cloud.
     pub fn cloud(&self) -> &Cloud {
         &self.file.ply.cloud
@@ -145,10 +155,14 @@ fn read_truth(path: &Path) -> Result<Option<Truth>, String> {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(format!("{}: {error}.", path.display())),
     };
+    parse_truth(path, &text).map(Some)
+}
+
+fn parse_truth(path: &Path, text: &str) -> Result<Truth, String> {
     let unusable = |why: String| format!("{}: this truth is not used: {why}.", path.display());
-    let truth: Truth = serde_json::from_str(&text).map_err(|error| unusable(error.to_string()))?;
+    let truth: Truth = serde_json::from_str(text).map_err(|error| unusable(error.to_string()))?;
     if truth.schema == Truth::SCHEMA {
-        Ok(Some(truth))
+        Ok(truth)
     } else {
         Err(unusable(format!(
             "its schema is {:?}, not {:?}",
