@@ -271,22 +271,10 @@ impl App {
             self.say(false, "There is no view to save yet.".into());
             return;
         };
-        let cloud = walked.fruit.file.path.display().to_string();
-        let [width, height] = size_px;
-        let named = [
-            cloud.clone(),
-            "-o".into(),
-            path.display().to_string(),
-            "--size".into(),
-            format!("{width}x{height}"),
-        ];
         let settings = PictureSettings {
             version: env!("CARGO_PKG_VERSION").into(),
-            arguments: super::command_line(&self.state)
-                .into_iter()
-                .chain(named)
-                .collect(),
-            cloud,
+            arguments: super::command_line(&self.state, &path.display().to_string(), size_px),
+            cloud: walked.fruit.file.path.display().to_string(),
             sha256: walked.fruit.file.sha256.clone(),
         };
         let state = self.state.clone();

@@ -1,17 +1,22 @@
 //! The command line that draws what the window shows.
 
-use crate::evaluate::Request;
+use crate::evaluate::{Request, TruthChoice};
 use crate::io::PeduncleChoice;
 use crate::method::{Aggregation, CenterMethod, NormalSource, Params, Preset, RandomSearch, TAU_CM_PER_RAD};
 use crate::view::{Overlay, Theme};
 
 use super::state::{PlaneChoice, State};
 
-/// The words of `render` with the settings that are in force, without cloud and output; `render` is
-/// the first. Whatever stands at its default is left out.
-pub fn command_line(state: &State) -> Vec<String> {
+/// The words of `render` with the settings that are in force, for a picture of so many pixels: `render`,
+/// the cloud, the output and the options. Whatever stands at its default is left out.
+pub fn command_line(state: &State, out: &str, size_px: [u32; 2]) -> Vec<String> {
+    let cloud = state.source().map(|s| s.path().display().to_string());
     let mut words = vec!["render".to_owned()];
+    words.extend(cloud);
+    words.extend(["-o".to_owned(), out.to_owned()]);
     let mut add = |option: &str, value: String| words.extend([option.to_owned(), value]);
+    let [width_px, height_px] = size_px;
+    add("--size", format!("{width_px}x{height_px}"));
     if state.style.coloring != crate::view::Coloring::Side {
         add("--color", state.style.coloring.name().into());
     }
@@ -32,8 +37,13 @@ pub fn command_line(state: &State) -> Vec<String> {
     if state.style.theme == Theme::Light {
         add("--background", "light".into());
     }
-    if let Some(size) = state.style.point_size {
-        add("--point-size", size.to_string());
+    if state.truth == TruthChoice::Truth {
+        add("--reference", "truth".into());
+    }
+    if let Some(shown) = state.shown() {
+        let size = super::look::point_size(&state.style, shown.len());
+        let scaled = size * super::image::picture_scale(state, height_px);
+        add("--point-size", scaled.min(100.0).to_string());
     }
     // Without a failure: a camera is plain numbers.
     if let Ok(camera) = serde_json::to_string(&state.camera) {

@@ -4,7 +4,7 @@ use super::look::Look;
 use super::state::State;
 use crate::render::Image;
 
-/// Draws what the window shows; lines and points keep their size relative to the picture.
+/// Draws what the window shows, as `render` does; points keep their size relative to the picture.
 #[cfg(feature = "window")]
 pub(super) fn draw(state: &State, look: &Look, [width_px, height_px]: [u32; 2]) -> Result<Image, String> {
     use crate::io::{paint_annotations, text_width_px};
@@ -12,15 +12,12 @@ pub(super) fn draw(state: &State, look: &Look, [width_px, height_px]: [u32; 2]) 
     use crate::view::annotate;
 
     let viewport = Viewport::new(width_px.into(), height_px.into());
-    let ratio = f64::from(height_px) / (state.viewport.height_px * f64::from(state.pixels_per_point));
+    let ratio = picture_scale(state, height_px) / state.pixels_per_point;
     let mut scene = (*look.scene).clone();
     for points in &mut scene.points {
-        points.size_px *= ratio as f32;
+        points.size_px *= ratio;
     }
-    for line in &mut scene.lines {
-        line.width_px *= ratio as f32;
-        line.outline_px *= ratio as f32;
-    }
+    scene.scale_lines(crate::view::line_scale(height_px));
     let gpu = Gpu::headless().map_err(|e| e.to_string())?;
     let mut image =
         draw_image(&gpu, &scene, &state.camera, width_px, height_px).map_err(|e| e.to_string())?;
@@ -29,6 +26,11 @@ pub(super) fn draw(state: &State, look: &Look, [width_px, height_px]: [u32; 2]) 
     paint_annotations(&mut image, &annotate(&page, &state.camera, &text_width_px))
         .map_err(|e| e.to_string())?;
     Ok(image)
+}
+
+/// How many pixels of a picture a logical pixel of the view becomes.
+pub(super) fn picture_scale(state: &State, height_px: u32) -> f32 {
+    (f64::from(height_px) / state.viewport.height_px) as f32
 }
 
 /// Without a renderer there are no pictures.

@@ -156,7 +156,7 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         brush_cm,
         detail,
     } = question;
-    let point_size_px = pixels_per_point * style.point_size.unwrap_or_else(|| closing_size(shown.len()));
+    let point_size_px = pixels_per_point * point_size(&style, shown.len());
     let mut settings = SceneSettings {
         overlays: &style.overlays,
         theme: style.theme,
@@ -249,6 +249,11 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         contributions: contributions.map(Arc::new),
         analysis: Some(analysis),
     })
+}
+
+/// A point's diameter in logical pixels.
+pub(super) fn point_size(style: &Style, points: usize) -> f32 {
+    style.point_size.unwrap_or_else(|| closing_size(points))
 }
 
 /// The diameter in logical pixels at which so many points close up to a surface in a view of usual size.

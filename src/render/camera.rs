@@ -103,6 +103,17 @@ impl Camera {
         }
     }
 
+    /// Whether its numbers make a picture: all finite, a turn, and positive lengths and angles.
+    pub fn is_sound(&self) -> bool {
+        self.eye_in_world.is_finite()
+            && self.pivot_in_world.is_finite()
+            && self.lens_shift_ndc.is_finite()
+            && (self.world_from_view.length() - 1.0).abs() < 1e-3
+            && self.focus_distance.is_finite()
+            && self.focus_distance > 0.0
+            && (1e-6..3.1).contains(&self.vertical_fov_rad)
+    }
+
     /// The unit direction in which the camera looks.
     pub fn forward_in_world(&self) -> DVec3 {
         self.world_from_view * DVec3::NEG_Z

@@ -189,6 +189,14 @@ impl Scene {
         }
     }
 
+    /// Widens every line by a factor: for a picture of many pixels.
+    pub fn scale_lines(&mut self, factor: f32) {
+        for line in &mut self.lines {
+            line.width_px *= factor;
+            line.outline_px *= factor;
+        }
+    }
+
     /// Sets the bounds to what is in the scene. Walks over all points: for when data has changed.
     pub fn fit_bounds(&mut self) {
         let origin = self.origin_in_world;

@@ -1,2 +1,23 @@
 //! What is drawn: one file a panel. A panel reads the [`State`](crate::app::State) and says
 //! [`Command`](crate::app::Command)s; it changes nothing itself.
+
+mod about;
+pub mod actions;
+mod dialogs;
+mod help;
+mod layout;
+mod menu;
+mod open;
+mod paint;
+mod palette;
+mod panes;
+mod status;
+mod theme;
+mod view3d;
+mod view_bar;
+mod window;
+
+pub use layout::{Pane, first_layout, layout_from};
+pub use open::{OpenError, open_window, session_path};
+pub use theme::set_up;
+pub use window::{Start, Window};

@@ -162,6 +162,11 @@ pub(super) fn axis_ends(axis: &AxisEstimate, size: f64) -> [DVec3; 2] {
     ]
 }
 
+/// How much wider lines are drawn in a picture of so many rows than in one of the usual size.
+pub fn line_scale(height_px: u32) -> f32 {
+    (height_px as f32 / 900.0).max(1.0)
+}
+
 fn mixed(a: Color, b: Color, share_of_b: f64) -> Color {
     std::array::from_fn(|i| {
         let (a, b) = (f64::from(a[i]), f64::from(b[i]));
