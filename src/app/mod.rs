@@ -21,6 +21,7 @@ mod samples;
 mod session;
 mod stages;
 mod state;
+pub mod why;
 pub mod worker;
 mod written;
 

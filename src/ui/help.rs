@@ -19,14 +19,17 @@ const MOUSE: [(&str, &str); 7] = [
 pub fn show(ctx: &egui::Context, actions: &[Action]) -> bool {
     let modal = Modal::new(egui::Id::unique("help")).show(ctx, |ui| {
         let room = ctx.content_rect().size();
-        ui.set_max_width((room.x - 80.0).min(860.0));
+        ui.set_max_width((room.x - 60.0).min(980.0));
         ui.heading("Keys");
         ui.add_space(4.0);
         egui::ScrollArea::vertical()
-            .max_height(room.y - 180.0)
+            .max_height(room.y - 120.0)
             .auto_shrink([false, true])
             .show(ui, |ui| {
                 let columns = if room.x > 780.0 { 3 } else { 1 };
+                // Room for the bar at the side.
+                ui.set_max_width(ui.available_width() - 16.0);
+                ui.spacing_mut().item_spacing.x = 24.0;
                 ui.columns(columns, |columns| {
                     let count = columns.len();
                     let parts: [&[Group]; 3] = [

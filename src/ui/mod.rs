@@ -3,7 +3,10 @@
 
 mod about;
 pub mod actions;
+pub mod contributions;
+mod controls;
 mod dialogs;
+pub mod files;
 mod help;
 mod layout;
 mod menu;
@@ -11,10 +14,13 @@ mod open;
 mod paint;
 mod palette;
 mod panes;
+pub mod parameters;
+pub mod point;
 mod status;
 mod theme;
 mod view3d;
 mod view_bar;
+pub mod warnings;
 mod window;
 
 pub use layout::{Pane, first_layout, layout_from};

@@ -1,11 +1,12 @@
 //! Which panel draws what.
 
-use egui::{Frame, Margin, WidgetText};
+use egui::{Frame, Margin, ScrollArea, WidgetText};
 use egui_tiles::{Behavior, SimplificationOptions, TileId, UiResponse};
 
-use super::actions::{Act, Action};
+use super::actions::{Act, Action, WindowAct};
+use super::files::{self, FilesAnswer};
 use super::layout::Pane;
-use super::{view_bar, view3d};
+use super::{contributions, parameters, point, view_bar, view3d};
 use crate::app::{Command, State};
 use crate::render::Viewport;
 
@@ -62,6 +63,28 @@ impl Panes<'_> {
     }
 
     fn panel(&mut self, ui: &mut egui::Ui, pane: Pane) {
-        ui.label(pane.title());
+        let (state, commands) = (self.state, &mut *self.commands);
+        match pane {
+            Pane::View => {}
+            Pane::Files => {
+                if let Some(FilesAnswer::OpenDialog) = files::show(ui, state, commands) {
+                    self.acts.push(Act::Window(WindowAct::OpenFiles));
+                }
+            }
+            Pane::Parameters => {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    parameters::show(ui, state, commands);
+                });
+            }
+            Pane::ScoreMap | Pane::Hemisphere | Pane::Ranking => {
+                ui.label(pane.title());
+            }
+            Pane::Point => {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    point::show(ui, state, commands);
+                });
+            }
+            Pane::Contributions => contributions::show(ui, state, commands),
+        }
     }
 }

@@ -48,6 +48,7 @@ fn visuals(theme: Theme) -> Visuals {
     visuals.faint_bg_color = pick(0x23_262d, 0xe9_ebef);
     visuals.selection.bg_fill = pick(0x1f_5f99, 0x9c_c8ee);
     visuals.selection.stroke.color = pick(0xff_ffff, 0x0b_2f4f);
+    visuals.weak_text_color = Some(pick(0xa3_a9b3, 0x5a_606a));
     visuals.hyperlink_color = pick(0x6c_b8f5, 0x0a_5c9e);
     visuals.warn_fg_color = pick(0xf0_b43c, 0x8a_5300);
     visuals.error_fg_color = pick(0xff_8a80, 0xb3_1412);

@@ -6,6 +6,7 @@ use egui::{
 use glam::DVec2;
 
 use super::paint::ViewCallback;
+use crate::app::why::{why, why_lines};
 use crate::app::{Command, State, Tool, Written, dragged};
 use crate::render::{Line, Viewport};
 use crate::view::{Anchor, Annotation, annotate};
@@ -161,7 +162,15 @@ fn cursor_lines(state: &State, pixels_per_point: f32) -> Vec<Line> {
     if let Some(pointed) = state.pointed_at.filter(|&p| Some(p) != state.picked) {
         lines.extend(disc(pointed, [255, 255, 255, 200], 6.0));
     }
-    lines.extend(state.picked.and_then(|picked| disc(picked, [255; 4], 9.0)));
+    let explained = state.picked.and_then(|picked| why(state, picked));
+    if let Some(why) = explained {
+        let mut steps = why_lines(&why, shown.extent.size().length(), state.style.theme);
+        for line in &mut steps {
+            line.width_px *= pixels_per_point;
+            line.outline_px *= pixels_per_point;
+        }
+        lines.extend(steps);
+    }
     lines
 }
 

@@ -46,7 +46,7 @@ fn colorings(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Ve
     let current = state.style.coloring;
     ComboBox::from_id_salt("coloring")
         .selected_text(coloring_title(current))
-        .width(150.0)
+        .width(146.0)
         .show_ui(ui, |ui| {
             let titles = Coloring::ALL.map(coloring_title);
             for action in actions.iter().filter(|a| a.group == Group::Color) {
@@ -110,11 +110,10 @@ fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
         _ => "Peduncle's axis",
     };
     let Some(current) = state.reference() else { return };
-    ui.separator();
-    let label = ui.label("Reference");
+    let label = ui.label("against");
     ComboBox::from_id_salt("reference")
         .selected_text(name(&current.source))
-        .width(120.0)
+        .width(112.0)
         .show_ui(ui, |ui| {
             for reference in &state.references {
                 let is_on = reference.source == current.source;
