@@ -21,5 +21,5 @@ pub use overlays::{Overlay, Overlays};
 pub use palette::{NEUTRAL, VALUE_STOPS, value_color};
 pub use pick::pick_point;
 pub use preset::ViewPreset;
-pub use scene::{SceneSettings, build_bare_scene, build_scene, framed_cloud, framed_points};
+pub use scene::{AXIS_COLOR, SceneSettings, build_bare_scene, build_scene, framed_cloud, framed_points};
 pub use shown::ShownPoints;
