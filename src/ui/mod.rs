@@ -3,19 +3,28 @@
 
 mod about;
 pub mod actions;
+mod color_scale;
 pub mod contributions;
 mod controls;
 mod dialogs;
 pub mod files;
 mod help;
+pub mod hemisphere;
 mod layout;
+mod marks;
 mod menu;
+mod notice;
 mod open;
 mod paint;
 mod palette;
 mod panes;
 pub mod parameters;
+mod plane_tip;
+mod planes;
 pub mod point;
+pub mod ranking;
+pub mod score_map;
+pub mod scrub;
 mod status;
 mod theme;
 mod view3d;

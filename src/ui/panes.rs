@@ -1,12 +1,12 @@
 //! Which panel draws what.
 
-use egui::{Frame, Margin, ScrollArea, WidgetText};
+use egui::{Frame, Margin, Panel, ScrollArea, WidgetText};
 use egui_tiles::{Behavior, SimplificationOptions, TileId, UiResponse};
 
 use super::actions::{Act, Action, WindowAct};
 use super::files::{self, FilesAnswer};
 use super::layout::Pane;
-use super::{contributions, parameters, point, view_bar, view3d};
+use super::{contributions, hemisphere, parameters, point, ranking, score_map, scrub, view_bar, view3d};
 use crate::app::{Command, State};
 use crate::render::Viewport;
 
@@ -58,6 +58,9 @@ impl Panes<'_> {
         Frame::new().inner_margin(Margin::symmetric(8, 4)).show(ui, |ui| {
             view_bar::show(ui, self.state, self.actions, self.acts);
         });
+        Panel::bottom("scrub").show_separator_line(false).show(ui, |ui| {
+            scrub::show(ui, self.state, self.commands);
+        });
         let answer = view3d::show(ui, self.state, self.is_gpu, self.commands);
         *self.viewport = Some(answer.viewport);
     }
@@ -76,9 +79,9 @@ impl Panes<'_> {
                     parameters::show(ui, state, commands);
                 });
             }
-            Pane::ScoreMap | Pane::Hemisphere | Pane::Ranking => {
-                ui.label(pane.title());
-            }
+            Pane::ScoreMap => score_map::show(ui, state, commands),
+            Pane::Hemisphere => hemisphere::show(ui, state, commands),
+            Pane::Ranking => ranking::show(ui, state, commands),
             Pane::Point => {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     point::show(ui, state, commands);

@@ -21,5 +21,7 @@ pub use overlays::{Overlay, Overlays};
 pub use palette::{NEUTRAL, VALUE_STOPS, value_color};
 pub use pick::pick_point;
 pub use preset::ViewPreset;
-pub use scene::{SceneSettings, build_bare_scene, build_scene, framed_cloud, framed_points, line_scale};
+pub use scene::{
+    AXIS_COLOR, SceneSettings, build_bare_scene, build_scene, framed_cloud, framed_points, line_scale,
+};
 pub use shown::ShownPoints;

@@ -33,7 +33,7 @@ pub struct SceneSettings<'a> {
 }
 
 /// The computed axis is green, as in the paper's figures.
-const AXIS: Color = [0x2f, 0xd0, 0x68, 255];
+pub const AXIS_COLOR: Color = [0x2f, 0xd0, 0x68, 255];
 const WHITE: Color = [255; 4];
 const PLANE: Color = [0x8f, 0xb8, 0xde, 255];
 /// Samples that can still be told apart.
@@ -69,7 +69,7 @@ pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSett
     let outline = [0x10, 0x12, 0x14, 255];
     for (estimate, overlay, color) in [
         (settings.reference, Overlay::Reference, WHITE),
-        (settings.axis, Overlay::Axis, AXIS),
+        (settings.axis, Overlay::Axis, AXIS_COLOR),
     ] {
         if let Some(axis) = estimate.filter(|_| has(overlay)) {
             let [from, to] = axis_ends(axis, size);
