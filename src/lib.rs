@@ -6,6 +6,7 @@
 //! [`method`], and leaves as a symmetry plane and an axis that [`mod@reference`] compares with others.
 //! [`simulate`] makes clouds whose axis is known.
 
+pub mod app;
 pub mod evaluate;
 pub mod geometry;
 pub mod io;
@@ -13,4 +14,6 @@ pub mod method;
 pub mod reference;
 pub mod render;
 pub mod simulate;
+#[cfg(feature = "window")]
+pub mod ui;
 pub mod view;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use assert_cmd::Command;
 use axiscope::render::{
     Background, Camera, DrawError, EyeDome, Gpu, Image, Line, Points, Polygon, SHADERS, Scene, Viewport,
-    draw_image,
+    draw_extract, draw_image,
 };
 use glam::{DVec3, Vec3};
 use wgpu::naga;
@@ -163,9 +163,13 @@ fn a_thinned_cloud_is_an_even_part_of_it() {
     let points: Vec<(Vec3, [u8; 4])> = (0..1000_u16)
         .map(|i| (Vec3::new(f32::from(i) * 0.008 - 4.0, 0.0, 0.0), RED))
         .collect();
-    let mut scene = scene(&points, 1.0);
-    scene.max_points = 20;
-    let image = drawn(&scene);
+    let scene = scene(&points, 1.0);
+    let gpu = Gpu::software().expect("the software driver is installed");
+    let thinned = |points| Extract {
+        points,
+        ..Extract::whole([101, 101], 2)
+    };
+    let image = draw_extract(&gpu, &scene, &camera(), &[thinned(0..20)]).expect("can be drawn");
     let red = |x: &u32| (48..53).any(|y| at(&image, *x, y) != BACKGROUND);
     let (left, right) = ((0..50).filter(red).count(), (50..101).filter(red).count());
     assert!(

@@ -25,15 +25,18 @@ use clap::{CommandFactory, Parser, Subcommand};
     name = "axiscope",
     version,
     max_term_width = 100,
-    subcommand_required = true,
-    arg_required_else_help = true
+    args_conflicts_with_subcommands = true
 )]
 struct Cli {
+    /// Point clouds (PLY) or folders to open in the window; a sample where nothing is named
+    #[cfg(feature = "window")]
+    #[arg(value_name = "FILE|FOLDER")]
+    paths: Vec<std::path::PathBuf>,
     /// Worker threads [default: all cores]; results do not depend on it
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -80,7 +83,15 @@ fn run(cli: Cli) -> anyhow::Result<()> {
     if let Some(threads) = cli.threads {
         use_threads(threads.into())?;
     }
-    match cli.command {
+    let Some(command) = cli.command else {
+        #[cfg(feature = "window")]
+        return open_window(cli.paths);
+        #[cfg(not(feature = "window"))]
+        return Err(usage_error(
+            "this build has no window; `axiscope --help` lists the commands",
+        ));
+    };
+    match command {
         Command::Analyze(analyze) => analyze::run(&analyze),
         #[cfg(feature = "window")]
         Command::Render(render) => render::run(&render, std::env::args_os(), parse_render),
@@ -100,10 +111,23 @@ fn run(cli: Cli) -> anyhow::Result<()> {
     }
 }
 
+/// Opens the window, unless what is named is not there: whoever mistyped a command is told in the
+/// terminal.
+#[cfg(feature = "window")]
+fn open_window(paths: Vec<std::path::PathBuf>) -> anyhow::Result<()> {
+    if let Some(missing) = paths.iter().find(|path| !path.exists()) {
+        anyhow::bail!(
+            "{}: there is no such file or folder, and no such command; `axiscope --help` lists the commands",
+            missing.display()
+        );
+    }
+    Ok(axiscope::ui::open_window(paths)?)
+}
+
 /// What `render` was asked for on another command line, if it was.
 #[cfg(feature = "window")]
 fn parse_render(arguments: &[String]) -> Option<render::Render> {
-    match Cli::try_parse_from(arguments).ok()?.command {
+    match Cli::try_parse_from(arguments).ok()?.command? {
         Command::Render(render) => Some(*render),
         _ => None,
     }

@@ -1,5 +1,7 @@
 //! What of a picture can be asked for on the command line.
 
+use axiscope::evaluate::TruthChoice;
+use axiscope::render::Camera;
 use axiscope::view::{Coloring, Overlays, ViewPreset};
 use clap::{Args, ValueEnum};
 
@@ -20,6 +22,12 @@ pub(super) struct Picture {
     /// Where to look from
     #[arg(long, value_enum, default_value = "camera")]
     pub(super) view: ViewOption,
+    /// The very camera, as the window writes it into pictures and command lines; --view is then not looked at
+    #[arg(long, value_name = "JSON", value_parser = camera)]
+    pub(super) camera: Option<Camera>,
+    /// The axis that the computed one is compared with
+    #[arg(long, value_enum, default_value = "peduncle")]
+    pub(super) reference: ReferenceOption,
     /// What is drawn over the points: all, none, or names with commas between them [default:
     /// plane,center,axis,reference,legend,scale,triad,caption; others: normal,viewpoint,ghost,partners,normals]
     #[arg(long, value_name = "LIST", value_parser = str::parse::<Overlays>)]
@@ -105,6 +113,32 @@ impl ViewOption {
             Self::Normal => ViewPreset::Normal,
             Self::Axis => ViewPreset::Axis,
         }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+pub(super) enum ReferenceOption {
+    /// The peduncle's, else the first there is
+    Peduncle,
+    /// The simulator's, else the first there is
+    Truth,
+}
+
+impl ReferenceOption {
+    pub(super) fn choice(self) -> TruthChoice {
+        match self {
+            Self::Peduncle => TruthChoice::Peduncle,
+            Self::Truth => TruthChoice::Truth,
+        }
+    }
+}
+
+fn camera(text: &str) -> Result<Camera, String> {
+    let camera: Camera = serde_json::from_str(text).map_err(|error| error.to_string())?;
+    if camera.is_sound() {
+        Ok(camera)
+    } else {
+        Err("its numbers must be finite, and the focus distance and field of view positive".into())
     }
 }
 

@@ -4,14 +4,13 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use axiscope::evaluate::{Examined, TruthChoice, examine, reference_of};
+use axiscope::app::caption;
+use axiscope::evaluate::{Examined, examine, reference_of};
 use axiscope::geometry::Plane;
 use axiscope::io::{
     Fruit, PictureSettings, encode_picture, paint_annotations, picture_settings, text_width_px,
 };
-use axiscope::method::{
-    Analysis, AxisEstimate, AxisSource, Candidate, PlaneDetail, plane_detail, symmetry_axis,
-};
+use axiscope::method::{Analysis, AxisEstimate, AxisSource, PlaneDetail, plane_detail, symmetry_axis};
 use axiscope::reference::axis_error_rad;
 use axiscope::render::{Gpu, Projection, Viewport, draw_image};
 use axiscope::view::{
@@ -88,7 +87,6 @@ pub(super) fn run(
 /// The plane that is looked at, and what follows from it.
 struct Looked {
     plane: Plane,
-    candidate: Candidate,
     index: usize,
     detail: PlaneDetail,
     axis: Option<AxisEstimate>,
@@ -110,7 +108,7 @@ fn draw(
         ..
     } = examined(cloud, options, expected_sha256)?;
     let looked = looked_at(&analysis, picture.plane)?;
-    let reference = reference_of(&references, TruthChoice::Peduncle);
+    let reference = reference_of(&references, picture.reference.choice()).or(references.first());
     let shown = ShownPoints::new(fruit.cloud(), &analysis);
     let subject = Subject {
         shown: &shown,
@@ -138,9 +136,12 @@ fn draw(
         axis,
         reference,
     };
-    let scene = build_scene(subject, &colored, &settings);
+    let mut scene = build_scene(subject, &colored, &settings);
+    scene.scale_lines(axiscope::view::line_scale(picture.size[1]));
 
-    let caption = caption(named, &analysis, looked.as_ref(), reference);
+    let name = named.file_name().unwrap_or_default().to_string_lossy();
+    let index = looked.as_ref().map(|l| l.index);
+    let caption = caption(&name, &analysis, index, axis, reference);
     let both = axis
         .zip(reference)
         .filter(|_| has(Overlay::Axis) && has(Overlay::Reference));
@@ -183,14 +184,17 @@ fn draw(
     } else {
         Projection::Perspective
     };
-    let camera = preset.camera(
-        &framed_points(subject, &settings),
-        analysis.params.viewpoint,
-        direction.unwrap_or_default(),
-        projection,
-        viewport,
-        insets(&page, &text_width_px),
-    );
+    let preset_camera = || {
+        preset.camera(
+            &framed_points(subject, &settings),
+            analysis.params.viewpoint,
+            direction.unwrap_or_default(),
+            projection,
+            viewport,
+            insets(&page, &text_width_px),
+        )
+    };
+    let camera = picture.camera.unwrap_or_else(preset_camera);
     let mut image = draw_image(&Gpu::headless()?, &scene, &camera, width, height)?;
     paint_annotations(&mut image, &annotate(&page, &camera, &text_width_px))?;
     Ok(encode_picture(
@@ -252,7 +256,6 @@ fn looked_at(analysis: &Analysis, choice: PlaneChoice) -> anyhow::Result<Option<
     let axis = symmetry_axis(candidate.normal, center, params.viewpoint).ok();
     Ok(Some(Looked {
         plane,
-        candidate,
         index,
         detail: plane_detail(&analysis.surface, params.unit, plane, params.viewpoint, &())?,
         axis: axis.map(|direction| AxisEstimate {
@@ -268,39 +271,4 @@ fn looked_at(analysis: &Analysis, choice: PlaneChoice) -> anyhow::Result<Option<
 fn default_point_size(points: usize, [width, height]: [u32; 2]) -> f64 {
     let fruit_px = 0.2 * f64::from(width) * f64::from(height);
     (1.7 * (fruit_px / points.max(1) as f64).sqrt()).clamp(2.0, 12.0)
-}
-
-/// The cloud and how it was read; the plane and what came of it.
-fn caption(
-    cloud: &Path,
-    analysis: &Analysis,
-    looked: Option<&Looked>,
-    reference: Option<&AxisEstimate>,
-) -> Vec<String> {
-    let name = cloud.file_name().unwrap_or_default().to_string_lossy();
-    let u = analysis.planes.grid.u();
-    let first = format!(
-        "{name} · {} points used · preset {} · {u} × {u} planes",
-        analysis.surface.len(),
-        analysis.params.preset_name()
-    );
-    let Some(looked) = looked else {
-        return vec![first, "no symmetry plane".into()];
-    };
-    let Candidate { g, h, .. } = looked.candidate;
-    let rank = analysis.ranking.order().iter().position(|&i| i == looked.index);
-    let score = match (rank, analysis.ranking.scores_cm()[looked.index]) {
-        (Some(0), Some(score)) => format!("the best, score {score:.4} cm"),
-        (Some(rank), Some(score)) => format!("rank {}, score {score:.4} cm", rank + 1),
-        _ => "too few partners for a score".into(),
-    };
-    let error = match (&looked.axis, reference) {
-        (Some(axis), Some(reference)) => {
-            let degrees = axis_error_rad(axis, reference).to_degrees();
-            format!("axis {degrees:.1}° off the reference")
-        }
-        (Some(_), None) => "no reference".into(),
-        (None, _) => "no axis".into(),
-    };
-    vec![first, format!("plane g {g}, h {h}: {score} · {error}")]
 }

@@ -5,9 +5,10 @@ use crate::io::{Fruit, PeduncleChoice};
 use crate::method::{
     Analysis, AnalysisError, AxisEstimate, AxisSource, NormalSource, Observe, Params, analyze,
 };
+use serde::{Deserialize, Serialize};
 
 /// What to do with a cloud, before anything is known of it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Request {
     /// The unit of its coordinates; `None` as the file states it, else guessed.
     pub unit: Option<Unit>,
@@ -37,7 +38,7 @@ impl Request {
 }
 
 /// Which reference an error is measured against.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum TruthChoice {
     /// The simulator's truth where there is one, else the peduncle's.
     Auto,
@@ -65,16 +66,28 @@ pub struct Examined {
 /// # Errors
 /// Where the cloud cannot be analyzed, or the watcher calls the work off.
 pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result<Examined, AnalysisError> {
-    let mut warnings = fruit.warnings.clone();
-    if request.without_peduncle && fruit.peduncle.is_none() {
-        warnings.push("There is no peduncle to leave out: the cloud is analyzed as it stands.".into());
-    }
     let params = request.params(&fruit);
     let analysis = if request.without_peduncle {
         analyze(&fruit.body(), &params, observe)?
     } else {
         analyze(fruit.cloud(), &params, observe)?
     };
+    let (references, warnings) = compared(&fruit, request, &analysis);
+    Ok(Examined {
+        fruit,
+        analysis,
+        references,
+        warnings,
+    })
+}
+
+/// The axes that an analysis can be compared with, the peduncle's first, and what the reader ought to
+/// know: the file's warnings, then the method's, as sentences.
+pub fn compared(fruit: &Fruit, request: &Request, analysis: &Analysis) -> (Vec<AxisEstimate>, Vec<String>) {
+    let mut warnings = fruit.warnings.clone();
+    if request.without_peduncle && fruit.peduncle.is_none() {
+        warnings.push("There is no peduncle to leave out: the cloud is analyzed as it stands.".into());
+    }
     warnings.extend(analysis.warnings.iter().map(|w| sentence(&w.to_string())));
     let mut references = Vec::new();
     match fruit.peduncle.as_ref().map(|p| p.reference_axis(analysis.center)) {
@@ -93,12 +106,7 @@ pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result
             confidence: None,
         });
     }
-    Ok(Examined {
-        fruit,
-        analysis,
-        references,
-        warnings,
-    })
+    (references, warnings)
 }
 
 /// The reference that `choice` asks for, if it is there.

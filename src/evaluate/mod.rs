@@ -11,7 +11,7 @@ mod summary;
 mod sweep;
 mod table;
 
-pub use examine::{Examined, Request, TruthChoice, examine, reference_of, sentence};
+pub use examine::{Examined, Request, TruthChoice, compared, examine, reference_of, sentence};
 pub use report::{AnalysisReport, SCHEMA, Timings};
 pub use row::Row;
 pub use summary::Summary;

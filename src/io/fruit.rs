@@ -1,6 +1,8 @@
 //! A fruit as its files give it: the cloud, its unit, and its peduncle.
 
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::{CloudFile, ReadError, read_cloud, unit_guess};
 use crate::geometry::{Cloud, Unit};
@@ -8,7 +10,7 @@ use crate::reference::{HueRange, Peduncle, PeduncleError};
 use crate::simulate::Truth;
 
 /// Where to look for the peduncle.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum PeduncleChoice {
     /// Labels in the file, else a companion file, else none.
     Auto,
@@ -26,7 +28,7 @@ pub enum PeduncleChoice {
 #[derive(Debug, Clone)]
 pub struct Fruit {
     /// The file and its cloud.
-    pub file: CloudFile,
+    pub file: Arc<CloudFile>,
     /// The unit of its coordinates.
     pub unit: Unit,
     /// Its peduncle, where it has one.
@@ -70,7 +72,19 @@ impl Fruit {
     /// # Errors
     /// Where a file cannot be read, or the peduncle is not found as asked.
     pub fn read(path: &Path, unit: Option<Unit>, choice: &PeduncleChoice) -> Result<Self, FruitError> {
-        let file = read_cloud(path)?;
+        Self::of_file(Arc::new(read_cloud(path)?), unit, choice)
+    }
+
+    /// As [`Fruit::read`], of a cloud that was read before.
+    ///
+    /// # Errors
+    /// Where the peduncle's file cannot be read, or the peduncle is not found as asked.
+    pub fn of_file(
+        file: Arc<CloudFile>,
+        unit: Option<Unit>,
+        choice: &PeduncleChoice,
+    ) -> Result<Self, FruitError> {
+        let path = &file.path;
         let mut warnings: Vec<String> = file.ply.notes.iter().map(|note| format!("{note}.")).collect();
         let dropped = file.ply.dropped_not_finite;
         if dropped > 0 {
@@ -96,6 +110,16 @@ impl Fruit {
             truth,
             warnings,
         })
+    }
+
+    /// With what the simulator knows of the cloud, as the text of a truth file.
+    #[must_use]
+    pub fn with_truth(mut self, name: &Path, text: &str) -> Self {
+        match parse_truth(name, text) {
+            Ok(truth) => self.truth = Some(truth.in_unit(self.unit)),
+            Err(problem) => self.warnings.push(problem),
+        }
+        self
     }
 
     /// The file's cloud.
@@ -131,10 +155,14 @@ fn read_truth(path: &Path) -> Result<Option<Truth>, String> {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(format!("{}: {error}.", path.display())),
     };
+    parse_truth(path, &text).map(Some)
+}
+
+fn parse_truth(path: &Path, text: &str) -> Result<Truth, String> {
     let unusable = |why: String| format!("{}: this truth is not used: {why}.", path.display());
-    let truth: Truth = serde_json::from_str(&text).map_err(|error| unusable(error.to_string()))?;
+    let truth: Truth = serde_json::from_str(text).map_err(|error| unusable(error.to_string()))?;
     if truth.schema == Truth::SCHEMA {
-        Ok(Some(truth))
+        Ok(truth)
     } else {
         Err(unusable(format!(
             "its schema is {:?}, not {:?}",

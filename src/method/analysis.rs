@@ -1,5 +1,7 @@
 //! All stages in their order, from a cloud to an axis.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::{
@@ -155,11 +157,11 @@ pub struct Analysis {
     /// The parameters in force.
     pub params: Params,
     /// The used points and their normals.
-    pub surface: Surface,
+    pub surface: Arc<Surface>,
     /// The fruit center p_c, in the file's unit and frame.
     pub center: DVec3,
     /// n, ΣD and ΣΞ of every candidate plane.
-    pub planes: PlaneTerms,
+    pub planes: Arc<PlaneTerms>,
     /// Their scores.
     pub ranking: Ranking,
     /// The symmetry plane.
@@ -175,6 +177,15 @@ pub struct Analysis {
 /// paper has none.
 const AMBIGUOUS_LEAD: f64 = 0.02;
 
+/// The used points, and what makes them less certain.
+#[derive(Debug, Clone)]
+pub struct UsedPoints {
+    /// The points and their normals.
+    pub surface: Arc<Surface>,
+    /// What ought to be known about them.
+    pub warnings: Vec<Warning>,
+}
+
 /// Walks a cloud through every stage.
 ///
 /// # Errors
@@ -183,10 +194,36 @@ const AMBIGUOUS_LEAD: f64 = 0.02;
 pub fn analyze(cloud: &Cloud, params: &Params, observe: &dyn Observe) -> Result<Analysis, AnalysisError> {
     params.check()?;
     let grid = CandidateGrid::new(params.u)?;
+    let used = used_points(cloud, params, observe)?;
+    observe.entered(Stage::Center);
+    let center = find_center(used.surface.points(), &params.center, observe)?;
+    observe.entered(Stage::PlaneTerms);
+    let planes = plane_terms(
+        &used.surface,
+        params.unit,
+        center,
+        params.viewpoint,
+        grid,
+        observe,
+    )?;
+    observe.entered(Stage::Scores);
+    Ok(Analysis::of_stages(params, &used, center, Arc::new(planes)))
+}
+
+/// The first two stages: filters and normals (Eq. 2). What comes out depends on the filters, the
+/// source of the normals, k and the viewpoint alone (and on the unit, where there is a voxel grid).
+///
+/// # Errors
+/// Where the points are too few, equal or on a line, the viewpoint lies among them, or the work is
+/// called off.
+pub fn used_points(
+    cloud: &Cloud,
+    params: &Params,
+    observe: &dyn Observe,
+) -> Result<UsedPoints, AnalysisError> {
     observe.entered(Stage::Filters);
     let filtered = filter(cloud, params, observe)?;
     let cloud = filtered.as_ref().unwrap_or(cloud);
-
     observe.entered(Stage::Normals);
     let surface = match params.normals {
         NormalSource::Estimate => {
@@ -198,47 +235,51 @@ pub fn analyze(cloud: &Cloud, params: &Params, observe: &dyn Observe) -> Result<
         let viewpoint = params.viewpoint;
         return Err(AnalysisError::ViewpointInsideCloud { viewpoint });
     }
-    let mut warnings = surface_warnings(cloud, &surface, params);
-
-    observe.entered(Stage::Center);
-    let center = find_center(surface.points(), &params.center, observe)?;
-
-    observe.entered(Stage::PlaneTerms);
-    let planes = plane_terms(&surface, params.unit, center, params.viewpoint, grid, observe)?;
-
-    observe.entered(Stage::Scores);
-    let ranking = Ranking::new(
-        &planes,
-        params.tau_cm_per_rad,
-        params.aggregation,
-        params.min_partner_fraction,
-    );
-    let best = best_plane(grid, &ranking);
-    warnings.extend(plane_warnings(&planes, &best));
-    let axis = best.as_ref().ok().and_then(|best| {
-        match symmetry_axis(best.candidate.normal, center, params.viewpoint) {
-            Ok(direction) => Some(AxisEstimate {
-                source: AxisSource::SymmetryPlane,
-                origin: center,
-                direction,
-                confidence: None,
-            }),
-            Err(undefined) => {
-                warnings.push(undefined.into());
-                None
-            }
-        }
-    });
-    Ok(Analysis {
-        params: params.clone(),
-        surface,
-        center,
-        planes,
-        ranking,
-        best,
-        axis,
+    let warnings = surface_warnings(cloud, &surface, params);
+    Ok(UsedPoints {
+        surface: Arc::new(surface),
         warnings,
     })
+}
+
+impl Analysis {
+    /// The last stage: scores, plane and axis (§ 2.5, Eq. 16) from what the stages before found with
+    /// `params`. Takes O(u² log u), whatever the number of points.
+    pub fn of_stages(params: &Params, used: &UsedPoints, center: DVec3, planes: Arc<PlaneTerms>) -> Self {
+        let ranking = Ranking::new(
+            &planes,
+            params.tau_cm_per_rad,
+            params.aggregation,
+            params.min_partner_fraction,
+        );
+        let best = best_plane(planes.grid, &ranking);
+        let mut warnings = used.warnings.clone();
+        warnings.extend(plane_warnings(&planes, &best));
+        let axis = best.as_ref().ok().and_then(|best| {
+            match symmetry_axis(best.candidate.normal, center, params.viewpoint) {
+                Ok(direction) => Some(AxisEstimate {
+                    source: AxisSource::SymmetryPlane,
+                    origin: center,
+                    direction,
+                    confidence: None,
+                }),
+                Err(undefined) => {
+                    warnings.push(undefined.into());
+                    None
+                }
+            }
+        });
+        Self {
+            params: params.clone(),
+            surface: used.surface.clone(),
+            center,
+            planes,
+            ranking,
+            best,
+            axis,
+            warnings,
+        }
+    }
 }
 
 fn filter(cloud: &Cloud, params: &Params, watch: &dyn Watch) -> Result<Option<Cloud>, Cancelled> {

@@ -21,7 +21,9 @@ mod surface;
 mod terms;
 mod visibility;
 
-pub use analysis::{Analysis, AnalysisError, BestPlane, Observe, Stage, Warning, analyze};
+pub use analysis::{
+    Analysis, AnalysisError, BestPlane, Observe, Stage, UsedPoints, Warning, analyze, used_points,
+};
 pub use axis::{AxisError, AxisEstimate, AxisSource, symmetry_axis};
 pub use candidates::{Candidate, CandidateGrid};
 pub use center::{

@@ -1,5 +1,6 @@
 //! Every number and choice that the result depends on, and the two readings of the paper.
 
+use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 
 use glam::DVec3;
@@ -11,7 +12,7 @@ use crate::geometry::Unit;
 pub const TAU_CM_PER_RAD: f64 = 3.0 / std::f64::consts::PI;
 
 /// Where the normals come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum NormalSource {
     /// From each point's neighborhood (Eq. 2).
     Estimate,
@@ -20,7 +21,7 @@ pub enum NormalSource {
 }
 
 /// The statistical outlier filter.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct OutlierFilter {
     /// How many nearest points each point's mean distance is taken over.
     pub neighbors: NonZeroUsize,
@@ -29,7 +30,7 @@ pub struct OutlierFilter {
 }
 
 /// Filters that run before anything else, outliers first; both are off by default.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Filters {
     /// Leave out statistical outliers.
     pub outliers: Option<OutlierFilter>,
@@ -38,7 +39,7 @@ pub struct Filters {
 }
 
 /// A reading of what the paper leaves open: the center's Eq. 3 and how scores are added up (§ 2.5).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Preset {
     /// Word for word: the RMS distance of Eq. 3, the sum of the scores, every plane in the running.
     AsPrinted,
@@ -65,7 +66,7 @@ impl Preset {
 }
 
 /// Every parameter of an analysis. Build one from a [`Preset`] and change what should differ.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Params {
     /// Steps of the candidate grid along each angle; the paper's § 3.2 uses 6.
     pub u: usize,

@@ -1,12 +1,13 @@
 //! The peduncle, and the reference axis that it gives (§ 3.2).
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Cloud, Extent, Neighbors};
 use crate::method::{AxisEstimate, AxisSource};
 
 /// A range of hues in degrees, 0 to 360; it may run through 0, as 350 to 20 does.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HueRange {
     /// Where it begins.
     pub from_deg: f64,

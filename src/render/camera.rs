@@ -1,11 +1,12 @@
 //! An orbit camera: where the eye is, which way it looks, and how the world lands on pixels.
 
 use glam::{DMat4, DQuat, DVec2, DVec3, DVec4};
+use serde::{Deserialize, Serialize};
 
 use super::Bounds;
 
 /// How depth shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Projection {
     /// Near things are larger.
     Perspective,
@@ -64,7 +65,7 @@ pub struct Ray {
 /// the picture's upper left corner, their centers at halves.
 ///
 /// Eye and pivot are kept apart, so that picking another pivot leaves the picture as it is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
     /// Where the eye is.
     pub eye_in_world: DVec3,
@@ -100,6 +101,17 @@ impl Camera {
             projection: Projection::Perspective,
             lens_shift_ndc: DVec2::ZERO,
         }
+    }
+
+    /// Whether its numbers make a picture: all finite, a turn, and positive lengths and angles.
+    pub fn is_sound(&self) -> bool {
+        self.eye_in_world.is_finite()
+            && self.pivot_in_world.is_finite()
+            && self.lens_shift_ndc.is_finite()
+            && (self.world_from_view.length() - 1.0).abs() < 1e-3
+            && self.focus_distance.is_finite()
+            && self.focus_distance > 0.0
+            && (1e-6..3.1).contains(&self.vertical_fov_rad)
     }
 
     /// The unit direction in which the camera looks.

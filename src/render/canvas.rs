@@ -1,5 +1,7 @@
 //! One view's picture on the GPU: its targets, its buffers, and the passes that draw it.
 
+use std::ops::Range;
+
 use bytemuck::{Pod, Zeroable};
 use glam::DMat4;
 use wgpu::BindingResource;
@@ -24,11 +26,37 @@ struct ViewUniform {
     oversampling: f32,
 }
 
+/// How much of a scene is drawn, and into how many pixels.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Extract {
+    /// Width and height of the picture.
+    pub size_px: [u32; 2],
+    /// Each pixel is the mean of this many squared (1 or 2).
+    pub oversampling: u32,
+    /// Which points of each cloud. They come in an order whose every beginning is spread evenly over
+    /// the cloud, so that `0..20_000` is a thinned one. A range that begins later adds to what was
+    /// drawn last, with the same camera: so a large cloud can appear little by little.
+    pub points: Range<usize>,
+}
+
+impl Extract {
+    /// All of it.
+    pub fn whole(size_px: [u32; 2], oversampling: u32) -> Self {
+        Self {
+            size_px,
+            oversampling,
+            points: 0..usize::MAX,
+        }
+    }
+}
+
 /// What is drawn into, of one size.
 struct Targets {
     size_px: [u32; 2],
     points_color: wgpu::TextureView,
     depth: wgpu::TextureView,
+    /// The points' depth, into which the lines are drawn as well.
+    overlaid_depth: wgpu::TextureView,
     picture: wgpu::TextureView,
     shading_group: wgpu::BindGroup,
     composite_group: wgpu::BindGroup,
@@ -52,8 +80,7 @@ impl Canvas {
         Self::default()
     }
 
-    /// Draws the scene into the canvas, `width_px` × `height_px` pixels of which each is the mean of
-    /// `oversampling` ² drawn ones (1 or 2). Submits nothing: that is the encoder's owner's.
+    /// Draws the scene into the canvas. Submits nothing: that is the encoder's owner's.
     #[expect(
         clippy::too_many_arguments,
         reason = "what a window's paint callback hands over, and what to draw"
@@ -66,13 +93,16 @@ impl Canvas {
         encoder: &mut wgpu::CommandEncoder,
         scene: &Scene,
         camera: &Camera,
-        size_px: [u32; 2],
-        oversampling: u32,
+        extract: &Extract,
     ) {
         let largest = device.limits().max_texture_dimension_2d;
-        let drawn_px = size_px.map(|side| (side.max(1) * oversampling.clamp(1, 2)).min(largest));
+        let oversampling = extract.oversampling.clamp(1, 2);
+        let drawn_px = extract
+            .size_px
+            .map(|side| (side.max(1) * oversampling).min(largest));
         self.upload(renderer, device, queue, scene, camera);
         self.upload_view(renderer, device, queue, scene, camera, drawn_px, oversampling);
+        let is_fresh = extract.points.start == 0;
         if self.targets.as_ref().is_none_or(|t| t.size_px != drawn_px) {
             self.targets = Some(Targets::new(renderer, device, drawn_px));
         }
@@ -84,11 +114,16 @@ impl Canvas {
                 encoder,
                 "points",
                 &targets.points_color,
-                Some((&targets.depth, true)),
+                Some((&targets.depth, is_fresh)),
             );
             pass.set_bind_group(0, view, &[]);
-            self.draw_points(renderer, &mut pass, scene.max_points);
+            self.draw_points(renderer, &mut pass, &extract.points);
         }
+        encoder.copy_texture_to_texture(
+            targets.depth.texture().as_image_copy(),
+            targets.overlaid_depth.texture().as_image_copy(),
+            targets.depth.texture().size(),
+        );
         {
             let mut pass = begin(encoder, "shading", &targets.picture, None);
             pass.set_bind_group(0, view, &[]);
@@ -100,7 +135,7 @@ impl Canvas {
             encoder,
             "overlays",
             &targets.picture,
-            Some((&targets.depth, false)),
+            Some((&targets.overlaid_depth, false)),
         );
         pass.set_bind_group(0, view, &[]);
         // What points hide, faintly; then the lines, which hide the planes behind them; then planes.
@@ -133,20 +168,21 @@ impl Canvas {
         }
     }
 
-    fn draw_points(&self, renderer: &Renderer, pass: &mut wgpu::RenderPass<'_>, max_points: usize) {
+    fn draw_points(&self, renderer: &Renderer, pass: &mut wgpu::RenderPass<'_>, points: &Range<usize>) {
         pass.set_pipeline(&renderer.points);
         for cloud in &self.points {
             pass.set_bind_group(1, &cloud.look_group, &[]);
-            let mut left = max_points;
+            let mut begin = 0;
             for chunk in &cloud.chunks {
-                let count = chunk.count.min(left);
-                left -= count;
-                if let (Some(positions), Some(colors), 1..) =
-                    (chunk.positions.get(), chunk.colors.get(), count)
+                let within = |place: usize| place.clamp(begin, begin + chunk.count) - begin;
+                let (first, last) = (within(points.start), within(points.end));
+                begin += chunk.count;
+                if let (Some(positions), Some(colors)) = (chunk.positions.get(), chunk.colors.get())
+                    && first < last
                 {
                     pass.set_vertex_buffer(0, positions.slice(..));
                     pass.set_vertex_buffer(1, colors.slice(..));
-                    pass.draw(0..4, 0..count as u32);
+                    pass.draw(0..4, first as u32..last as u32);
                 }
             }
         }
@@ -179,7 +215,7 @@ impl Canvas {
                 .write(device, queue, "lines", bytemuck::cast_slice(&lines));
             self.lines_state = Some(state);
         }
-        // Few, and their order hangs on the camera.
+        // Few, and their order depends on the camera.
         let planes = triangles(&scene.polygons, origin, camera.forward_in_world());
         self.planes
             .write(device, queue, "planes", bytemuck::cast_slice(&planes));
@@ -212,7 +248,7 @@ impl Canvas {
             eye_dome_strength: scene.eye_dome.strength,
             eye_dome_scale: scene.eye_dome.scale.max(f32::MIN_POSITIVE),
             is_orthographic: f32::from(u8::from(camera.projection == Projection::Orthographic)),
-            oversampling: oversampling.clamp(1, 2) as f32,
+            oversampling: oversampling as f32,
         };
         let (buffer, _) = self.view.get_or_insert_with(|| {
             let buffer = device.create_buffer(&wgpu::BufferDescriptor {
@@ -237,7 +273,7 @@ impl Canvas {
 
 impl Targets {
     fn new(renderer: &Renderer, device: &wgpu::Device, size_px: [u32; 2]) -> Self {
-        let target = |label, format| {
+        let target = |label, format, extra| {
             let texture = device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
                 size: wgpu::Extent3d {
@@ -249,14 +285,19 @@ impl Targets {
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
                 format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | extra,
                 view_formats: &[],
             });
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
-        let points_color = target("points", COLOR);
-        let depth = target("depth", DEPTH);
-        let picture = target("picture", COLOR);
+        let (read, copied) = (
+            wgpu::TextureUsages::TEXTURE_BINDING,
+            wgpu::TextureUsages::COPY_SRC,
+        );
+        let points_color = target("points", COLOR, read);
+        let depth = target("depth", DEPTH, read | copied);
+        let overlaid_depth = target("overlaid depth", DEPTH, wgpu::TextureUsages::COPY_DST);
+        let picture = target("picture", COLOR, read);
         let group = |label, layout, first, second| {
             device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some(label),
@@ -289,6 +330,7 @@ impl Targets {
             size_px,
             points_color,
             depth,
+            overlaid_depth,
             picture,
             shading_group,
             composite_group,

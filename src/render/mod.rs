@@ -21,13 +21,13 @@ mod uploads;
 
 pub use camera::{Camera, Projection, Ray, Viewport};
 #[cfg(feature = "window")]
-pub use canvas::Canvas;
+pub use canvas::{Canvas, Extract};
 pub use framing::Insets;
 #[cfg(feature = "window")]
 pub use gpu::{Gpu, GpuError};
 pub use image::{Image, MAX_SIDE_PX};
 #[cfg(feature = "window")]
-pub use offscreen::{DrawError, draw_image};
+pub use offscreen::{DrawError, draw_extract, draw_image};
 #[cfg(feature = "window")]
 pub use pipelines::{Renderer, SHADERS};
 pub use scene::{Background, Bounds, Color, Dash, EyeDome, Line, Points, Polygon, Scene};

@@ -1,7 +1,7 @@
 //! A picture drawn without a window.
 
 use super::gpu::OFFSCREEN_FORMAT;
-use super::{Camera, Canvas, Gpu, Image, MAX_SIDE_PX, Scene};
+use super::{Camera, Canvas, Extract, Gpu, Image, MAX_SIDE_PX, Scene};
 
 /// Why a picture could not be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -35,7 +35,30 @@ pub fn draw_image(
     height_px: u32,
 ) -> Result<Image, DrawError> {
     let largest = gpu.device.limits().max_texture_dimension_2d;
-    let most = largest.min(MAX_SIDE_PX);
+    // Beyond some 8 million pixels nobody sees the steps, and memory runs short.
+    let small = u64::from(width_px) * u64::from(height_px) <= 8 << 20;
+    let has_room = width_px.max(height_px) <= largest / 2;
+    let oversampling = if small && has_room { 2 } else { 1 };
+    draw_extract(
+        gpu,
+        scene,
+        camera,
+        &[Extract::whole([width_px, height_px], oversampling)],
+    )
+}
+
+/// Draws parts of a scene into memory, one after the other; all of the first one's size.
+///
+/// # Errors
+/// Where the size is out of range, there is no part, or the adapter fails.
+pub fn draw_extract(
+    gpu: &Gpu,
+    scene: &Scene,
+    camera: &Camera,
+    extracts: &[Extract],
+) -> Result<Image, DrawError> {
+    let [width_px, height_px] = extracts.first().map_or([0, 0], |e| e.size_px);
+    let most = gpu.device.limits().max_texture_dimension_2d.min(MAX_SIDE_PX);
     if !(1..=most).contains(&width_px) || !(1..=most).contains(&height_px) {
         return Err(DrawError::Size {
             width_px,
@@ -43,14 +66,6 @@ pub fn draw_image(
             most,
         });
     }
-    // Beyond some 8 million pixels nobody sees the steps, and memory runs short.
-    let small = u64::from(width_px) * u64::from(height_px) <= 8 << 20;
-    let oversampling = if small && 2 * width_px.max(height_px) <= largest {
-        2
-    } else {
-        1
-    };
-
     let out_of_memory = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let invalid = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -72,16 +87,17 @@ pub fn draw_image(
         .device
         .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut canvas = Canvas::new();
-    canvas.draw(
-        &gpu.renderer,
-        &gpu.device,
-        &gpu.queue,
-        &mut encoder,
-        scene,
-        camera,
-        [width_px, height_px],
-        oversampling,
-    );
+    for extract in extracts {
+        canvas.draw(
+            &gpu.renderer,
+            &gpu.device,
+            &gpu.queue,
+            &mut encoder,
+            scene,
+            camera,
+            extract,
+        );
+    }
     {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("image"),

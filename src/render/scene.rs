@@ -1,5 +1,7 @@
 //! What is drawn, as plain data: points, lines, planes, background.
 
+use std::sync::Arc;
+
 use glam::{DVec3, Vec3};
 
 use crate::geometry::Extent;
@@ -29,10 +31,11 @@ impl Bounds {
 /// Round points, all of one size.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Points {
-    /// Positions less the scene's origin.
-    pub positions: Vec<Vec3>,
+    /// Positions less the scene's origin. Shared, so that a scene can be copied and given other lines
+    /// without a copy of its points.
+    pub positions: Arc<[Vec3]>,
     /// One a point; the opacity is not used.
-    pub colors: Vec<Color>,
+    pub colors: Arc<[Color]>,
     /// Changes whenever `positions` does: what tells the renderer to send them to the GPU again.
     pub positions_generation: u64,
     /// Changes whenever `colors` does.
@@ -161,8 +164,6 @@ pub struct Scene {
     pub background: Background,
     /// Shading by depth.
     pub eye_dome: EyeDome,
-    /// At most so many points of each cloud are drawn, spread evenly over it.
-    pub max_points: usize,
     /// What holds everything that is drawn.
     pub bounds: Bounds,
 }
@@ -181,11 +182,18 @@ impl Scene {
                 strength: 0.0,
                 scale: 1.0,
             },
-            max_points: usize::MAX,
             bounds: Bounds {
                 center_in_world: DVec3::ZERO,
                 radius: 1.0,
             },
+        }
+    }
+
+    /// Widens every line by a factor: for a picture of many pixels.
+    pub fn scale_lines(&mut self, factor: f32) {
+        for line in &mut self.lines {
+            line.width_px *= factor;
+            line.outline_px *= factor;
         }
     }
 
@@ -195,7 +203,7 @@ impl Scene {
         let points = self
             .points
             .iter()
-            .flat_map(|p| &p.positions)
+            .flat_map(|p| p.positions.iter())
             .map(|p| origin + p.as_dvec3());
         let lines = self.lines.iter().flat_map(|l| [l.from_in_world, l.to_in_world]);
         let corners = self

@@ -1,6 +1,7 @@
 //! What is written and drawn over the picture in pixels, as data.
 
 use glam::DVec2;
+use serde::{Deserialize, Serialize};
 
 use crate::render::{Background, Color};
 
@@ -65,7 +66,7 @@ pub enum Annotation {
 }
 
 /// Light on dark, or dark on light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 pub enum Theme {
     /// A dark background.
     #[default]

@@ -1,5 +1,6 @@
 //! The colorings of one cloud: what each point's color says.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 use super::legend::{Legend, Ramp, Swatch};
@@ -12,7 +13,7 @@ use crate::method::{Analysis, PlaneDetail, PointDetail, Side};
 use crate::render::Color;
 
 /// What the points' colors show.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Coloring {
     /// The file's colors.
     Rgb,
@@ -109,16 +110,7 @@ const RAMP_SHARE: f64 = 0.98;
 pub fn color_points(subject: Subject<'_>, coloring: Coloring) -> Result<Colored, ColoringError> {
     let detail = || subject.detail.ok_or(ColoringError::NoPlane);
     Ok(match coloring {
-        Coloring::Rgb => {
-            let colors = subject.shown.colors.as_ref().ok_or(ColoringError::NoColors)?;
-            Colored {
-                colors: colors.iter().map(|c| [c[0], c[1], c[2], 255]).collect(),
-                legend: Legend {
-                    title: "Colors of the file".into(),
-                    ..Legend::default()
-                },
-            }
-        }
+        Coloring::Rgb => by_file(subject.shown)?,
         Coloring::Label => by_label(subject.shown)?,
         Coloring::Normal => by_normal(subject),
         Coloring::Side => by_side(subject, detail()?),
@@ -135,6 +127,32 @@ pub fn color_points(subject: Subject<'_>, coloring: Coloring) -> Result<Colored,
                 p.partner.map(|p| p.score_cm(tau))
             })
         }
+    })
+}
+
+/// Colors the points of a cloud that was not analyzed: by what the file says of them, or in one gray.
+pub fn color_bare(shown: &ShownPoints, coloring: Coloring) -> Colored {
+    let by_what_there_is = match coloring {
+        Coloring::Label => by_label(shown),
+        _ => by_file(shown),
+    };
+    by_what_there_is.unwrap_or_else(|_| Colored {
+        colors: vec![VALUELESS; shown.len()],
+        legend: Legend {
+            title: "Not analyzed".into(),
+            ..Legend::default()
+        },
+    })
+}
+
+fn by_file(shown: &ShownPoints) -> Result<Colored, ColoringError> {
+    let colors = shown.colors.as_ref().ok_or(ColoringError::NoColors)?;
+    Ok(Colored {
+        colors: colors.iter().map(|c| [c[0], c[1], c[2], 255]).collect(),
+        legend: Legend {
+            title: "Colors of the file".into(),
+            ..Legend::default()
+        },
     })
 }
 
@@ -208,10 +226,13 @@ fn by_value(
 ) -> Colored {
     let shown = subject.shown;
     let mut values: Vec<f64> = detail.points.iter().filter_map(&value_of).collect();
-    values.sort_unstable_by(f64::total_cmp);
+    let most = values.iter().copied().max_by(f64::total_cmp);
     let high = match values.len() {
         0 => 0.0,
-        n => values[((RAMP_SHARE * n as f64).ceil() as usize).clamp(1, n) - 1],
+        n => {
+            let rank = ((RAMP_SHARE * n as f64).ceil() as usize).clamp(1, n) - 1;
+            *values.select_nth_unstable_by(rank, f64::total_cmp).1
+        }
     };
     let (mut without, mut unused) = (0, 0);
     let colors = shown.in_surface.iter().map(|place| {
@@ -236,10 +257,10 @@ fn by_value(
         ticks: ticks(high),
         high,
     });
-    let notes = match (values.last(), &ramp) {
+    let notes = match (most, &ramp) {
         (None, _) => vec!["no point has a partner".into()],
         (Some(_), None) => vec!["all values are 0".into()],
-        (Some(&most), Some(_)) => vec![format!("top: 98th percentile; most {}", digits(most, high))],
+        (Some(most), Some(_)) => vec![format!("top: 98th percentile; most {}", digits(most, high))],
     };
     Colored {
         colors,

@@ -8,16 +8,20 @@ mod layout;
 mod legend;
 mod overlays;
 mod palette;
+mod pick;
 mod preset;
 mod scene;
 mod shown;
 
 pub use annotation::{Anchor, Annotation, Theme};
-pub use coloring::{Colored, Coloring, ColoringError, Subject, color_points};
+pub use coloring::{Colored, Coloring, ColoringError, Subject, color_bare, color_points};
 pub use layout::{Page, annotate, insets};
 pub use legend::{Legend, Ramp, Swatch};
 pub use overlays::{Overlay, Overlays};
 pub use palette::{NEUTRAL, VALUE_STOPS, value_color};
+pub use pick::pick_point;
 pub use preset::ViewPreset;
-pub use scene::{SceneSettings, build_scene, framed_points};
+pub use scene::{
+    AXIS_COLOR, SceneSettings, build_bare_scene, build_scene, framed_cloud, framed_points, line_scale,
+};
 pub use shown::ShownPoints;

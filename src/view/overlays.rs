@@ -1,10 +1,11 @@
 //! What is drawn over the points, each with a switch.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::str::FromStr;
 
 /// One thing that can be drawn over the points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Overlay {
     /// The candidate plane, its outline, and the points that it cuts through.
     Plane,
@@ -73,7 +74,7 @@ impl Overlay {
 }
 
 /// Which overlays are on.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Overlays(BTreeSet<Overlay>);
 
 impl Default for Overlays {

@@ -1,11 +1,12 @@
 //! The views that are one key away.
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use crate::render::{Camera, Insets, Projection, Viewport};
 
 /// Where to look from. *Up* in a camera's frame is −y.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ViewPreset {
     /// From the viewpoint, as the depth camera saw it.
     Camera,

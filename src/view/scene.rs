@@ -1,11 +1,14 @@
 //! From an analysis to what the renderer draws.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::annotation::Theme;
 use super::coloring::{Colored, Subject};
 use super::overlays::{Overlay, Overlays};
 use super::palette::{PINK, SKY};
+use super::shown::ShownPoints;
 use crate::geometry::{Extent, Plane};
 use crate::method::AxisEstimate;
 use crate::render::{Color, EyeDome, Line, Points, Polygon, Scene};
@@ -30,7 +33,7 @@ pub struct SceneSettings<'a> {
 }
 
 /// The computed axis is green, as in the paper's figures.
-const AXIS: Color = [0x2f, 0xd0, 0x68, 255];
+pub const AXIS_COLOR: Color = [0x2f, 0xd0, 0x68, 255];
 const WHITE: Color = [255; 4];
 const PLANE: Color = [0x8f, 0xb8, 0xde, 255];
 /// Samples that can still be told apart.
@@ -40,35 +43,21 @@ const NORMAL_LINES: usize = 400;
 /// Everything of an analysis that is drawn in space. `colored` comes from [`super::color_points`].
 /// Generations start from zero: whoever draws several scenes after each other sets them.
 pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSettings<'_>) -> Scene {
-    let positions = &subject.shown.positions;
-    let extent = Extent::robust(positions).unwrap_or(Extent {
-        min: DVec3::ZERO,
-        max: DVec3::ONE,
-    });
+    let extent = subject.shown.extent;
     let size = extent.size().length().max(1e-9);
     let has = |overlay| settings.overlays.has(overlay);
-    let mut scene = Scene::empty(settings.theme.background());
-    scene.origin_in_world = extent.center();
-    scene.eye_dome = EyeDome {
-        strength: settings.eye_dome_strength,
-        scale: (0.5 * size) as f32,
-    };
     let local = |p: DVec3| (p - extent.center()).as_vec3();
     let mut colors = colored.colors.clone();
     if let Some(plane) = settings.plane.filter(|_| has(Overlay::Plane)) {
+        let positions = &subject.shown.positions;
         brighten_cut(positions, &mut colors, &plane, 0.006 * size, settings.theme);
     }
-    scene.points.push(Points {
-        positions: positions.iter().map(|&p| local(p)).collect(),
-        colors,
-        size_px: settings.point_size_px,
-        ..Points::default()
-    });
+    let mut scene = points_alone(subject.shown, colors.into(), settings);
     if let Some(plane) = settings.plane.filter(|_| has(Overlay::Ghost)) {
         let used = subject.analysis.surface.points();
         scene.points.push(Points {
             positions: used.iter().map(|&p| local(plane.reflect_point(p))).collect(),
-            colors: vec![PINK; used.len()],
+            colors: vec![PINK; used.len()].into(),
             size_px: 0.6 * settings.point_size_px,
             ..Points::default()
         });
@@ -80,7 +69,7 @@ pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSett
     let outline = [0x10, 0x12, 0x14, 255];
     for (estimate, overlay, color) in [
         (settings.reference, Overlay::Reference, WHITE),
-        (settings.axis, Overlay::Axis, AXIS),
+        (settings.axis, Overlay::Axis, AXIS_COLOR),
     ] {
         if let Some(axis) = estimate.filter(|_| has(overlay)) {
             let [from, to] = axis_ends(axis, size);
@@ -101,19 +90,49 @@ pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSett
     scene
 }
 
-/// What must be in the picture: the bulk of the points (no stray decides), the plane and the axes.
-pub fn framed_points(subject: Subject<'_>, settings: &SceneSettings<'_>) -> Vec<DVec3> {
-    let positions = &subject.shown.positions;
-    let Some(extent) = Extent::robust(positions) else {
-        return Vec::new();
+/// A cloud that was not analyzed: its points and nothing else.
+pub fn build_bare_scene(shown: &ShownPoints, colored: &Colored, settings: &SceneSettings<'_>) -> Scene {
+    let mut scene = points_alone(shown, colored.colors.clone().into(), settings);
+    scene.fit_bounds();
+    scene
+}
+
+fn points_alone(shown: &ShownPoints, colors: Arc<[Color]>, settings: &SceneSettings<'_>) -> Scene {
+    let mut scene = Scene::empty(settings.theme.background());
+    scene.origin_in_world = shown.extent.center();
+    scene.eye_dome = EyeDome {
+        strength: settings.eye_dome_strength,
+        scale: (0.5 * shown.extent.size().length().max(1e-9)) as f32,
     };
+    scene.points.push(Points {
+        positions: shown.local_positions.clone(),
+        colors,
+        size_px: settings.point_size_px,
+        ..Points::default()
+    });
+    scene
+}
+
+/// Enough of the points to tell where their bulk lies, without a walk over all of a large cloud.
+fn bulk_sample(shown: &ShownPoints) -> impl Iterator<Item = DVec3> {
+    let step = (shown.len() / 20_000).max(1);
+    shown.positions.iter().step_by(step).copied()
+}
+
+/// The bulk of the points alone: what [`framed_points`] begins with.
+pub fn framed_cloud(shown: &ShownPoints) -> Vec<DVec3> {
+    let extent = shown.extent;
     let margin = 0.2 * extent.size() + DVec3::splat(1e-3 * extent.size().length());
     let (min, max) = (extent.min - margin, extent.max + margin);
-    let step = (positions.len() / 20_000).max(1);
-    let bulk = positions.iter().step_by(step).copied();
-    let mut framed: Vec<DVec3> = bulk
+    bulk_sample(shown)
         .filter(|p| p.cmpge(min).all() && p.cmple(max).all())
-        .collect();
+        .collect()
+}
+
+/// What must be in the picture: the bulk of the points (no stray decides), the plane and the axes.
+pub fn framed_points(subject: Subject<'_>, settings: &SceneSettings<'_>) -> Vec<DVec3> {
+    let extent = subject.shown.extent;
+    let mut framed = framed_cloud(subject.shown);
     let size = extent.size().length();
     if let Some(plane) = settings.plane.filter(|_| settings.overlays.has(Overlay::Plane)) {
         framed.extend(plane_corners(subject, &plane, settings.axis));
@@ -143,6 +162,11 @@ pub(super) fn axis_ends(axis: &AxisEstimate, size: f64) -> [DVec3; 2] {
     ]
 }
 
+/// How much wider lines are drawn in a picture of so many rows than in one of the usual size.
+pub fn line_scale(height_px: u32) -> f32 {
+    (height_px as f32 / 900.0).max(1.0)
+}
+
 fn mixed(a: Color, b: Color, share_of_b: f64) -> Color {
     std::array::from_fn(|i| {
         let (a, b) = (f64::from(a[i]), f64::from(b[i]));
@@ -166,11 +190,11 @@ fn plane_corners(subject: Subject<'_>, plane: &Plane, axis: Option<&AxisEstimate
         .and_then(DVec3::try_normalize)
         .unwrap_or_else(|| plane.normal.any_orthonormal_vector());
     let across = plane.normal.cross(along);
-    let in_plane = |p: &DVec3| {
-        let q = *p - plane.point;
+    let in_plane = |p: DVec3| {
+        let q = p - plane.point;
         DVec3::new(q.dot(along), q.dot(across), 0.0)
     };
-    let flat: Vec<DVec3> = subject.shown.positions.iter().map(in_plane).collect();
+    let flat: Vec<DVec3> = bulk_sample(subject.shown).map(in_plane).collect();
     let extent = Extent::robust(&flat).unwrap_or(Extent {
         min: DVec3::NEG_ONE,
         max: DVec3::ONE,

@@ -1,10 +1,11 @@
 //! The points that are shown, and which of them the method used.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
-use crate::geometry::{Cloud, Neighbors};
+use crate::geometry::{Cloud, Extent, Neighbors};
 use crate::method::Analysis;
 use crate::render::Color;
 
@@ -19,6 +20,10 @@ pub struct ShownPoints {
     pub labels: Option<Vec<i32>>,
     /// For each point its index in the analysis' surface; `None` where it was not used.
     pub in_surface: Vec<Option<usize>>,
+    /// What the bulk of the points spans.
+    pub extent: Extent,
+    /// Positions less the extent's center, as the renderer wants them.
+    pub local_positions: Arc<[Vec3]>,
 }
 
 impl ShownPoints {
@@ -32,12 +37,12 @@ impl ShownPoints {
                 .iter()
                 .map(|&p| nearest.as_ref().map_or(0, |n| n.nearest(p).index))
                 .collect();
-            return Self {
-                positions: surface.to_vec(),
-                colors: cloud.colors().map(|c| source.iter().map(|&i| c[i]).collect()),
-                labels: cloud.labels().map(|l| source.iter().map(|&i| l[i]).collect()),
-                in_surface: (0..surface.len()).map(Some).collect(),
-            };
+            return Self::of(
+                surface.to_vec(),
+                cloud.colors().map(|c| source.iter().map(|&i| c[i]).collect()),
+                cloud.labels().map(|l| source.iter().map(|&i| l[i]).collect()),
+                (0..surface.len()).map(Some).collect(),
+            );
         }
         // Everything else only leaves points out: those that stayed have the very coordinates.
         let key = |p: &DVec3| p.to_array().map(|c| (c + 0.0).to_bits());
@@ -51,11 +56,41 @@ impl ShownPoints {
             // Copies of one point take their places in the surface in turn.
             .map(|p| places.get_mut(&key(p)).and_then(Vec::pop))
             .collect();
-        Self {
-            positions: cloud.positions().to_vec(),
-            colors: cloud.colors().map(<[_]>::to_vec),
-            labels: cloud.labels().map(<[_]>::to_vec),
+        Self::of_cloud(cloud, in_surface)
+    }
+
+    /// Every point of a file that was not analyzed, or could not be.
+    pub fn bare(cloud: &Cloud) -> Self {
+        Self::of_cloud(cloud, vec![None; cloud.len()])
+    }
+
+    fn of_cloud(cloud: &Cloud, in_surface: Vec<Option<usize>>) -> Self {
+        Self::of(
+            cloud.positions().to_vec(),
+            cloud.colors().map(<[_]>::to_vec),
+            cloud.labels().map(<[_]>::to_vec),
             in_surface,
+        )
+    }
+
+    fn of(
+        positions: Vec<DVec3>,
+        colors: Option<Vec<Color>>,
+        labels: Option<Vec<i32>>,
+        in_surface: Vec<Option<usize>>,
+    ) -> Self {
+        let extent = Extent::robust(&positions).unwrap_or(Extent {
+            min: DVec3::ZERO,
+            max: DVec3::ONE,
+        });
+        let origin = extent.center();
+        Self {
+            local_positions: positions.iter().map(|&p| (p - origin).as_vec3()).collect(),
+            positions,
+            colors,
+            labels,
+            in_surface,
+            extent,
         }
     }
 

@@ -9,6 +9,7 @@ mod random_search;
 mod sphere;
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::Preset;
 use crate::geometry::{Cancelled, Watch};
@@ -17,7 +18,7 @@ pub use random_search::{RandomSearch, distance_deviation, rms_distance};
 pub use sphere::fit_sphere;
 
 /// How the fruit center is found.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum CenterMethod {
     /// The random point with the least RMS distance to the cloud: Eq. 3 as printed.
     MeanRms(RandomSearch),

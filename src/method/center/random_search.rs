@@ -4,12 +4,13 @@ use glam::DVec3;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+use serde::{Deserialize, Serialize};
 
 use crate::geometry::map_pieces;
 use crate::geometry::{Cancelled, Spread, Watch};
 
 /// The random points that the center is picked from: normally distributed about the cloud's mean.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RandomSearch {
     /// How many.
     pub count: usize,

@@ -1,0 +1,59 @@
+//! What is said of the result in words, in the window and under a saved picture.
+
+use crate::method::{Analysis, AxisEstimate, Candidate, Warning};
+use crate::reference::axis_error_rad;
+
+/// The cloud and how it was read; the plane and what came of it.
+pub fn caption(
+    name: &str,
+    analysis: &Analysis,
+    plane: Option<usize>,
+    axis: Option<&AxisEstimate>,
+    reference: Option<&AxisEstimate>,
+) -> Vec<String> {
+    let u = analysis.planes.grid.u();
+    let first = format!(
+        "{name} · {} points used · preset {} · {u} × {u} planes",
+        analysis.surface.len(),
+        analysis.params.preset_name()
+    );
+    let Some(index) = plane else {
+        return vec![first, "no symmetry plane".into()];
+    };
+    let Candidate { g, h, .. } = analysis.planes.grid.candidate(index);
+    let rank = analysis.ranking.order().iter().position(|&i| i == index);
+    let score = match (rank, analysis.ranking.scores_cm()[index]) {
+        (Some(0), Some(score)) => format!("the best, score {score:.4} cm"),
+        (Some(rank), Some(score)) => format!("rank {}, score {score:.4} cm", rank + 1),
+        _ => "too few partners for a score".into(),
+    };
+    let error = match (axis, reference) {
+        (Some(axis), Some(reference)) => {
+            let degrees = axis_error_rad(axis, reference).to_degrees();
+            format!("axis {degrees:.1}° off the reference")
+        }
+        (Some(_), None) => "no reference".into(),
+        (None, _) => "no axis".into(),
+    };
+    vec![first, format!("plane g {g}, h {h}: {score} · {error}")]
+}
+
+/// How sure the winner is, in words; `None` where there is no winner or nothing to compare it with.
+pub fn lead_in_words(analysis: &Analysis) -> Option<String> {
+    let best = analysis.best.as_ref().ok()?;
+    let (runner_up, _) = best.runner_up?;
+    let lead = best.lead()?;
+    let ambiguous = analysis
+        .warnings
+        .iter()
+        .any(|warning| matches!(warning, Warning::Ambiguous { .. }));
+    let angle =
+        crate::geometry::angle_between_lines_rad(best.candidate.normal, runner_up.normal).to_degrees();
+    Some(format!(
+        "{}: the runner-up (g {}, h {}) scores {:.1} % more and lies {angle:.0}° away",
+        if ambiguous { "Ambiguous" } else { "Clear" },
+        runner_up.g,
+        runner_up.h,
+        100.0 * lead
+    ))
+}

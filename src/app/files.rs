@@ -1,0 +1,91 @@
+//! The list of open clouds.
+
+use std::path::{Path, PathBuf};
+
+use super::stages::Source;
+use super::state::{Entry, State};
+
+/// Files that are remembered as opened lately.
+const MOST_RECENT: usize = 12;
+
+/// What opening some paths came to.
+pub(super) struct Opened {
+    /// The place in the list of the first cloud that they name.
+    pub(super) first: Option<usize>,
+    /// What is wrong with them, a sentence each.
+    pub(super) problems: Vec<String>,
+}
+
+impl State {
+    /// Adds files, and what lies in folders, to the list; what is there already is not added again.
+    pub(super) fn open(&mut self, paths: &[PathBuf]) -> Opened {
+        let mut opened = Opened {
+            first: None,
+            problems: Vec::new(),
+        };
+        // A sample makes room for the first file of one's own.
+        self.entries
+            .retain(|entry| matches!(entry.source, Source::File(_)));
+        self.current = self.current.filter(|&i| i < self.entries.len());
+        for path in paths {
+            let clouds = if path.is_dir() {
+                match clouds_in(path) {
+                    Ok(clouds) if clouds.is_empty() => {
+                        opened.problems.push(format!(
+                            "{}: there are no PLY files in this folder.",
+                            path.display()
+                        ));
+                        continue;
+                    }
+                    Ok(clouds) => clouds,
+                    Err(error) => {
+                        opened.problems.push(format!("{}: {error}.", path.display()));
+                        continue;
+                    }
+                }
+            } else {
+                vec![path.clone()]
+            };
+            for cloud in clouds {
+                let place = self.add(Source::File(cloud));
+                opened.first.get_or_insert(place);
+            }
+            self.remember(path);
+        }
+        opened
+    }
+
+    /// Adds one cloud; says where in the list it is.
+    pub(super) fn add(&mut self, source: Source) -> usize {
+        let known = self.entries.iter().position(|entry| entry.source == source);
+        known.unwrap_or_else(|| {
+            self.entries.push(Entry {
+                source,
+                problem: None,
+            });
+            self.entries.len() - 1
+        })
+    }
+
+    fn remember(&mut self, path: &Path) {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        self.recent.retain(|known| *known != path);
+        self.recent.insert(0, path);
+        self.recent.truncate(MOST_RECENT);
+    }
+}
+
+/// The clouds in a folder, by name; the peduncles' own files are none.
+fn clouds_in(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let mut clouds = Vec::new();
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        let is_ply = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply"));
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        if is_ply && !stem.ends_with("_peduncle") && path.is_file() {
+            clouds.push(path);
+        }
+    }
+    clouds.sort();
+    Ok(clouds)
+}

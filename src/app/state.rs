@@ -1,0 +1,353 @@
+//! Everything that the window shows: panels read it and change nothing.
+
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use super::look::{Look, Style};
+use super::samples::Sample;
+use super::stages::{Source, Walked};
+use super::worker::Progress;
+use crate::evaluate::{Request, reference_of};
+use crate::geometry::Unit;
+use crate::io::PeduncleChoice;
+use crate::method::{Analysis, AxisEstimate, Params, PlaneDetail, PointDetail, Preset};
+use crate::render::{Camera, Projection, Viewport};
+use crate::view::{ShownPoints, Theme, ViewPreset};
+
+pub use crate::evaluate::TruthChoice;
+
+/// Which candidate plane is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum PlaneChoice {
+    /// The one with the lowest score, whichever it is.
+    Best,
+    /// The one at step g, h of the grid, each from 1.
+    At {
+        /// The step of α.
+        g: usize,
+        /// The step of β.
+        h: usize,
+    },
+}
+
+/// What undo and redo bring back.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// How clouds are analyzed.
+    pub request: Request,
+    /// The plane that is looked at.
+    pub plane: PlaneChoice,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            request: Request {
+                unit: None,
+                peduncle: PeduncleChoice::Auto,
+                without_peduncle: false,
+                normals: None,
+                params: Params::new(Preset::AsIntended, Unit::Centimeter),
+            },
+            plane: PlaneChoice::Best,
+        }
+    }
+}
+
+/// One cloud of the list.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// Where it comes from.
+    pub source: Source,
+    /// Why it cannot be used, once that is known.
+    pub problem: Option<String>,
+}
+
+/// Something that the person at the screen has to be told.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Message {
+    /// Told apart by this.
+    pub id: u64,
+    /// Whether something failed.
+    pub is_error: bool,
+    /// What there is to say, in a sentence.
+    pub text: String,
+}
+
+/// What dragging in the view does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Tool {
+    /// It moves the camera, and a click picks a point.
+    #[default]
+    Navigate,
+    /// It moves the fruit center.
+    MoveCenter,
+}
+
+/// Everything that the window shows.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// The clouds that are open.
+    pub entries: Vec<Entry>,
+    /// Which one is shown.
+    pub current: Option<usize>,
+    /// Files opened lately, the last one first.
+    pub recent: Vec<PathBuf>,
+    /// What undo brings back.
+    pub settings: Settings,
+    /// Whether there is something to undo.
+    pub can_undo: bool,
+    /// Whether there is something to redo.
+    pub can_redo: bool,
+    /// The newest analysis, which may be of older settings.
+    pub walked: Option<Arc<Walked>>,
+    /// A cloud that was read but not analyzed, and why.
+    pub unanalyzed: Option<(Arc<ShownPoints>, String)>,
+    /// The axes to compare with.
+    pub references: Vec<AxisEstimate>,
+    /// Which of them the error is measured against.
+    pub truth: TruthChoice,
+    /// What ought to be known about the result, in sentences.
+    pub warnings: Vec<String>,
+    /// Whether the analysis is of older settings than those that are shown.
+    pub is_stale: bool,
+    /// How far the analysis under way is.
+    pub progress: Option<Progress>,
+    /// Whether the analysis was called off by hand.
+    pub was_cancelled: bool,
+    /// A plane that is only previewed, by its index in the grid.
+    pub previewed: Option<usize>,
+    /// Whether the planes are played through.
+    pub is_playing: bool,
+    /// How the cloud is drawn.
+    pub style: Style,
+    /// What is drawn.
+    pub look: Option<Arc<Look>>,
+    /// Whether what is drawn is of an older plane or coloring.
+    pub is_look_pending: bool,
+    /// Where the view is seen from.
+    pub camera: Camera,
+    /// The view's size, in logical pixels, when it was last drawn.
+    pub viewport: Viewport,
+    /// Physical pixels a logical one.
+    pub pixels_per_point: f32,
+    /// What dragging does.
+    pub tool: Tool,
+    /// The picked point, by its index among the shown ones.
+    pub picked: Option<usize>,
+    /// The point under the cursor.
+    pub pointed_at: Option<usize>,
+    /// The contributions that are brushed, in centimeters.
+    pub brush_cm: Option<RangeInclusive<f64>>,
+    /// What there is to say.
+    pub messages: Vec<Message>,
+    /// Whether pictures are drawn by the processor, which wants fewer points while the camera moves.
+    pub is_software: bool,
+    /// How large the interface is; 1 as the screen asks for.
+    pub interface_scale: f32,
+}
+
+impl State {
+    pub(super) fn new(settings: Settings, style: Style) -> Self {
+        Self {
+            entries: Vec::new(),
+            current: None,
+            recent: Vec::new(),
+            settings,
+            can_undo: false,
+            can_redo: false,
+            walked: None,
+            unanalyzed: None,
+            references: Vec::new(),
+            truth: TruthChoice::Peduncle,
+            warnings: Vec::new(),
+            is_stale: false,
+            progress: None,
+            was_cancelled: false,
+            previewed: None,
+            is_playing: false,
+            style,
+            look: None,
+            is_look_pending: false,
+            camera: Camera::looking_at(glam::DVec3::ZERO, glam::DVec3::Z, glam::DVec3::NEG_Y),
+            viewport: Viewport::new(800.0, 600.0),
+            pixels_per_point: 1.0,
+            tool: Tool::Navigate,
+            picked: None,
+            pointed_at: None,
+            brush_cm: None,
+            messages: Vec::new(),
+            is_software: false,
+            interface_scale: 1.0,
+        }
+    }
+
+    /// The newest analysis.
+    pub fn analysis(&self) -> Option<&Arc<Analysis>> {
+        self.walked.as_ref().map(|w| &w.analysis)
+    }
+
+    /// The parameters: as in force where there is an analysis of them, else as asked for.
+    pub fn params(&self) -> Params {
+        let request = &self.settings.request;
+        match &self.walked {
+            Some(walked) => request.params(&walked.fruit),
+            None => request.params.clone(),
+        }
+    }
+
+    /// The current cloud.
+    pub fn source(&self) -> Option<&Source> {
+        Some(&self.entries.get(self.current?)?.source)
+    }
+
+    /// The points that can be shown, analyzed or not.
+    pub fn shown(&self) -> Option<&Arc<ShownPoints>> {
+        match (&self.walked, &self.unanalyzed) {
+            (_, Some((shown, _))) => Some(shown),
+            (Some(walked), None) => Some(&walked.shown),
+            (None, None) => None,
+        }
+    }
+
+    /// The index of the plane that is looked at or previewed; `None` where there is none.
+    pub fn plane_index(&self) -> Option<usize> {
+        let analysis = self.analysis()?;
+        let grid = analysis.planes.grid;
+        if let Some(index) = self.previewed.filter(|&i| i < grid.plane_count()) {
+            return Some(index);
+        }
+        self.chosen_plane_index()
+    }
+
+    /// The index of the plane that was chosen, whatever is previewed.
+    pub fn chosen_plane_index(&self) -> Option<usize> {
+        let analysis = self.analysis()?;
+        match self.settings.plane {
+            PlaneChoice::Best => analysis.ranking.best().ok(),
+            PlaneChoice::At { g, h } => analysis.planes.grid.index_of(g, h),
+        }
+    }
+
+    /// The axis that errors are measured against: the chosen one, or else the first there is.
+    pub fn reference(&self) -> Option<&AxisEstimate> {
+        reference_of(&self.references, self.truth).or(self.references.first())
+    }
+
+    /// The detail of the plane that is drawn.
+    pub fn detail(&self) -> Option<&PlaneDetail> {
+        self.look.as_ref()?.detail.as_deref()
+    }
+
+    /// A shown point's index in the surface, and its part in the score of the plane that is drawn.
+    pub fn point_detail(&self, shown_index: usize) -> Option<(usize, PointDetail)> {
+        let look = self.look.as_ref()?;
+        let in_surface = (*look.shown.in_surface.get(shown_index)?)?;
+        let detail = look.detail.as_ref()?;
+        Some((in_surface, *detail.points.get(in_surface)?))
+    }
+
+    /// Whether something dark lies behind everything.
+    pub fn is_dark(&self) -> bool {
+        self.style.theme == Theme::Dark
+    }
+}
+
+/// Something that a panel asks for. Panels change nothing themselves.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Command {
+    /// Open files and folders, and show the first of them.
+    Open(Vec<PathBuf>),
+    /// Open a sample that the program brings along.
+    OpenSample(Sample),
+    /// Show a cloud of the list.
+    Show(usize),
+    /// Show the one so many further on.
+    Go(isize),
+    /// Take the current cloud off the list.
+    Close,
+    /// Read the current cloud again.
+    Reload,
+
+    /// Analyze as asked. Changes of one gesture are one step of undo.
+    Set {
+        /// What is wanted now.
+        request: Box<Request>,
+        /// The control that is being dragged.
+        gesture: Option<&'static str>,
+    },
+    /// The control that was dragged was let go.
+    EndGesture,
+    /// Back to a preset's reading of the paper; u, τ, k and the rest stay.
+    UsePreset(Preset),
+    /// Take back the last change.
+    Undo,
+    /// Take back the last undo.
+    Redo,
+    /// Call the analysis off.
+    Cancel,
+    /// Analyze after all.
+    Resume,
+    /// Measure errors against another reference.
+    Compare(TruthChoice),
+
+    /// Look at a plane.
+    LookAt(PlaneChoice),
+    /// Look at the plane so many further on in the grid.
+    Step(isize),
+    /// Look at the plane so many places further on in the ranking.
+    StepRank(isize),
+    /// Look at a plane while the cursor is on it.
+    Preview(Option<usize>),
+    /// Play through all planes, or stop.
+    Play(bool),
+
+    /// Draw otherwise.
+    Style(Box<Style>),
+    /// Gray the points whose contribution is outside.
+    Brush(Option<RangeInclusive<f64>>),
+    /// Pick the point at a place of the view, in logical pixels.
+    PickAt(DVec2),
+    /// Tell which point is under the cursor.
+    PointAt(Option<DVec2>),
+    /// Pick a point by its index among the shown ones, or none.
+    Pick(Option<usize>),
+
+    /// See from elsewhere.
+    Camera(Box<Camera>),
+    /// See from one of the usual places.
+    View(ViewPreset),
+    /// Show everything, from the same direction.
+    Frame,
+    /// Turn about the picked point, or about the fruit center.
+    PivotOnPicked,
+    /// How depth shows.
+    Project(Projection),
+    /// What dragging does.
+    Use(Tool),
+    /// Put the fruit center somewhere, in the file's unit and frame.
+    MoveCenter(glam::DVec3),
+
+    /// Make the interface larger or smaller.
+    Scale(f32),
+    /// Forget a message.
+    Dismiss(u64),
+    /// Say something.
+    Say {
+        /// Whether something failed.
+        is_error: bool,
+        /// What there is to say.
+        text: String,
+    },
+    /// Save the view as a PNG.
+    SaveImage {
+        /// Where.
+        path: PathBuf,
+        /// Width and height in pixels.
+        size_px: [u32; 2],
+    },
+}

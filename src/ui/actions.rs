@@ -1,0 +1,468 @@
+//! Everything that can be done with a key, in one table: keys, menus, help sheet and command palette
+//! are all made from it.
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+use super::layout::Pane;
+use crate::app::{Command, PlaneChoice, Sample, State, Tool};
+use crate::method::Preset;
+use crate::render::Projection;
+use crate::view::{Coloring, Overlay, Theme, ViewPreset};
+
+/// Something that only the window can do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WindowAct {
+    /// Ask for files and open them.
+    OpenFiles,
+    /// Ask for a folder and open what is in it.
+    OpenFolder,
+    /// Ask for a name and save the view.
+    SaveImage,
+    /// Put the equivalent command line on the clipboard.
+    CopyCommandLine,
+    /// Show the keys.
+    Help,
+    /// Look for a command by its name.
+    Palette,
+    /// Say what the program is.
+    About,
+    /// Bring a panel to the front.
+    Show(Pane),
+    /// Arrange the panels as at first.
+    ResetLayout,
+    /// End the program.
+    Quit,
+}
+
+/// What an action does.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Act {
+    /// The program does it.
+    App(Command),
+    /// The window does it.
+    Window(WindowAct),
+}
+
+/// The part of the help sheet that an action stands in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Group {
+    /// Files and pictures.
+    File,
+    /// Undo and the parameters.
+    Edit,
+    /// Which plane is looked at.
+    Plane,
+    /// Where the view is seen from.
+    View,
+    /// What the colors show.
+    Color,
+    /// What is drawn over the points.
+    Overlay,
+    /// Panels, help, looks.
+    Window,
+}
+
+impl Group {
+    /// All of them, in their order.
+    pub const ALL: [Self; 7] = [
+        Self::File,
+        Self::Edit,
+        Self::Plane,
+        Self::View,
+        Self::Color,
+        Self::Overlay,
+        Self::Window,
+    ];
+
+    /// Its title.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::File => "File",
+            Self::Edit => "Edit",
+            Self::Plane => "Plane",
+            Self::View => "View",
+            Self::Color => "Color by",
+            Self::Overlay => "Show",
+            Self::Window => "Window",
+        }
+    }
+}
+
+/// Something that can be done.
+#[derive(Debug, Clone)]
+pub struct Action {
+    /// Where the help sheet lists it.
+    pub group: Group,
+    /// What it does, in a few words.
+    pub title: String,
+    /// The keys that do it.
+    pub keys: Vec<KeyboardShortcut>,
+    /// What is to be done, as things are now.
+    pub act: Act,
+    /// Whether it can be done now.
+    pub is_enabled: bool,
+    /// Whether it is a switch that is on.
+    pub is_on: Option<bool>,
+    /// Whether holding the key does it again and again.
+    pub repeats: bool,
+}
+
+impl Action {
+    fn new(group: Group, title: impl Into<String>, act: Act) -> Self {
+        Self {
+            group,
+            title: title.into(),
+            keys: Vec::new(),
+            act,
+            is_enabled: true,
+            is_on: None,
+            repeats: false,
+        }
+    }
+
+    fn app(group: Group, title: impl Into<String>, command: Command) -> Self {
+        Self::new(group, title, Act::App(command))
+    }
+
+    fn window(title: impl Into<String>, group: Group, act: WindowAct) -> Self {
+        Self::new(group, title, Act::Window(act))
+    }
+
+    fn key(mut self, modifiers: Modifiers, key: Key) -> Self {
+        self.keys.push(KeyboardShortcut::new(modifiers, key));
+        self
+    }
+
+    fn when(mut self, is_enabled: bool) -> Self {
+        self.is_enabled = is_enabled;
+        self
+    }
+
+    fn on(mut self, is_on: bool) -> Self {
+        self.is_on = Some(is_on);
+        self
+    }
+
+    fn repeating(mut self) -> Self {
+        self.repeats = true;
+        self
+    }
+
+    /// The keys in words.
+    pub fn keys_text(&self, ctx: &egui::Context) -> String {
+        let texts: Vec<String> = self.keys.iter().map(|k| ctx.format_shortcut(k)).collect();
+        texts.join(" or ")
+    }
+}
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+const SHIFT: Modifiers = Modifiers::SHIFT;
+const ALT: Modifiers = Modifiers::ALT;
+
+/// Everything that can be done as things are now.
+pub fn actions(state: &State) -> Vec<Action> {
+    let mut all = file_actions(state);
+    all.extend(edit_actions(state));
+    all.extend(plane_actions(state));
+    all.extend(view_actions(state));
+    all.extend(style_actions(state));
+    all.extend(window_actions(state));
+    all
+}
+
+fn file_actions(state: &State) -> Vec<Action> {
+    use Group::File;
+    let (count, current) = (state.entries.len(), state.current);
+    let has_look = state.look.is_some();
+    let mut actions = vec![
+        Action::window("Open files …", File, WindowAct::OpenFiles).key(CTRL, Key::O),
+        Action::window("Open a folder …", File, WindowAct::OpenFolder).key(CTRL | SHIFT, Key::O),
+        Action::app(File, "Previous cloud", Command::Go(-1))
+            .key(NONE, Key::PageUp)
+            .when(current.is_some_and(|i| i > 0))
+            .repeating(),
+        Action::app(File, "Next cloud", Command::Go(1))
+            .key(NONE, Key::PageDown)
+            .when(current.is_some_and(|i| i + 1 < count))
+            .repeating(),
+        Action::app(File, "Read the file again", Command::Reload)
+            .key(CTRL, Key::R)
+            .when(current.is_some()),
+        Action::app(File, "Close this cloud", Command::Close)
+            .key(CTRL, Key::W)
+            .when(current.is_some()),
+        Action::window("Save the view as a picture …", File, WindowAct::SaveImage)
+            .key(CTRL, Key::S)
+            .when(has_look),
+        Action::window(
+            "Copy the equivalent command line",
+            File,
+            WindowAct::CopyCommandLine,
+        )
+        .key(CTRL | SHIFT, Key::C)
+        .when(current.is_some()),
+        Action::window("Quit", File, WindowAct::Quit).key(CTRL, Key::Q),
+    ];
+    actions.extend(Sample::ALL.map(|sample| {
+        Action::app(
+            File,
+            format!("Open the sample: {}", sample.title()),
+            Command::OpenSample(sample),
+        )
+    }));
+    actions
+}
+
+fn edit_actions(state: &State) -> Vec<Action> {
+    use Group::Edit;
+    let preset = state.settings.request.params.preset();
+    let is_moving = state.tool == Tool::MoveCenter;
+    let escape = if state.progress.is_some() {
+        Action::app(Edit, "Call the analysis off", Command::Cancel)
+    } else if is_moving {
+        Action::app(Edit, "Stop moving the center", Command::Use(Tool::Navigate))
+    } else if state.brush_cm.is_some() {
+        Action::app(Edit, "Clear the brush", Command::Brush(None))
+    } else {
+        Action::app(Edit, "Clear the picked point", Command::Pick(None)).when(state.picked.is_some())
+    };
+    vec![
+        Action::app(Edit, "Undo", Command::Undo)
+            .key(CTRL, Key::Z)
+            .when(state.can_undo)
+            .repeating(),
+        Action::app(Edit, "Redo", Command::Redo)
+            .key(CTRL | SHIFT, Key::Z)
+            .key(CTRL, Key::Y)
+            .when(state.can_redo)
+            .repeating(),
+        escape.key(NONE, Key::Escape),
+        Action::app(
+            Edit,
+            "Read the paper as intended",
+            Command::UsePreset(Preset::AsIntended),
+        )
+        .key(NONE, Key::I)
+        .on(preset == Some(Preset::AsIntended)),
+        Action::app(
+            Edit,
+            "Read the paper as printed",
+            Command::UsePreset(Preset::AsPrinted),
+        )
+        .key(SHIFT, Key::I)
+        .on(preset == Some(Preset::AsPrinted)),
+        Action::app(
+            Edit,
+            "Move the fruit center in the view",
+            Command::Use(if is_moving {
+                Tool::Navigate
+            } else {
+                Tool::MoveCenter
+            }),
+        )
+        .key(NONE, Key::C)
+        .on(is_moving)
+        .when(state.analysis().is_some()),
+        Action::app(Edit, "Analyze after all", Command::Resume)
+            .key(NONE, Key::F5)
+            .when(state.was_cancelled),
+    ]
+}
+
+fn plane_actions(state: &State) -> Vec<Action> {
+    use Group::Plane;
+    let u = state.analysis().map(|a| a.planes.grid.u().cast_signed());
+    let has = u.is_some();
+    let row = u.unwrap_or(1);
+    let step = |title: &str, command| Action::app(Plane, title, command).when(has).repeating();
+    vec![
+        Action::app(Plane, "Best plane", Command::LookAt(PlaneChoice::Best))
+            .key(NONE, Key::Home)
+            .when(has),
+        step("Previous plane", Command::Step(-1)).key(NONE, Key::ArrowLeft),
+        step("Next plane", Command::Step(1)).key(NONE, Key::ArrowRight),
+        step("Previous step of α", Command::Step(-row)).key(SHIFT, Key::ArrowLeft),
+        step("Next step of α", Command::Step(row)).key(SHIFT, Key::ArrowRight),
+        step("Better plane", Command::StepRank(-1)).key(NONE, Key::ArrowUp),
+        step("Worse plane", Command::StepRank(1)).key(NONE, Key::ArrowDown),
+        Action::app(
+            Plane,
+            if state.is_playing {
+                "Stop playing"
+            } else {
+                "Play through all planes"
+            },
+            Command::Play(!state.is_playing),
+        )
+        .key(NONE, Key::Space)
+        .on(state.is_playing)
+        .when(has),
+    ]
+}
+
+fn view_actions(state: &State) -> Vec<Action> {
+    use Group::View;
+    let has = state.look.is_some();
+    let view = |title: &str, preset, key| {
+        Action::app(View, title, Command::View(preset))
+            .key(ALT, key)
+            .when(has)
+    };
+    let is_orthographic = state.camera.projection == Projection::Orthographic;
+    let other = if is_orthographic {
+        Projection::Perspective
+    } else {
+        Projection::Orthographic
+    };
+    vec![
+        Action::app(View, "Show everything", Command::Frame)
+            .key(NONE, Key::F)
+            .when(has),
+        view("From the camera", ViewPreset::Camera, Key::Num1),
+        view("Front", ViewPreset::Front, Key::Num2),
+        view("Side", ViewPreset::Side, Key::Num3),
+        view("Top", ViewPreset::Top, Key::Num4),
+        view("Along the plane's normal", ViewPreset::Normal, Key::Num5),
+        view("Along the axis", ViewPreset::Axis, Key::Num6),
+        Action::app(View, "Without perspective", Command::Project(other))
+            .key(NONE, Key::O)
+            .on(is_orthographic)
+            .when(has),
+        Action::app(View, "Turn about the picked point", Command::PivotOnPicked)
+            .key(NONE, Key::Period)
+            .when(has),
+    ]
+}
+
+fn style_actions(state: &State) -> Vec<Action> {
+    let style = &state.style;
+    let mut actions = Vec::new();
+    let number = [
+        Key::Num1,
+        Key::Num2,
+        Key::Num3,
+        Key::Num4,
+        Key::Num5,
+        Key::Num6,
+        Key::Num7,
+        Key::Num8,
+    ];
+    for (coloring, key) in Coloring::ALL.into_iter().zip(number) {
+        let mut new = style.clone();
+        new.coloring = coloring;
+        actions.push(
+            Action::app(
+                Group::Color,
+                coloring_title(coloring),
+                Command::Style(Box::new(new)),
+            )
+            .key(NONE, key)
+            .on(style.coloring == coloring),
+        );
+    }
+    for overlay in Overlay::ALL {
+        let mut new = style.clone();
+        let is_on = style.overlays.has(overlay);
+        new.overlays.set(overlay, !is_on);
+        let (title, key) = overlay_title(overlay);
+        let action = Action::app(Group::Overlay, title, Command::Style(Box::new(new))).on(is_on);
+        actions.push(match key {
+            Some(key) => action.key(NONE, key),
+            None => action,
+        });
+    }
+    let mut flat = style.clone();
+    flat.eye_dome = !style.eye_dome;
+    actions.push(
+        Action::app(Group::Overlay, "Shading by depth", Command::Style(Box::new(flat)))
+            .key(NONE, Key::E)
+            .on(style.eye_dome),
+    );
+    let size = style.point_size.unwrap_or(4.0);
+    let sized = |size: f32| {
+        let mut new = style.clone();
+        new.point_size = Some(size.clamp(1.0, 24.0));
+        Command::Style(Box::new(new))
+    };
+    actions.push(
+        Action::app(Group::Overlay, "Larger points", sized(size * 1.25))
+            .key(NONE, Key::CloseBracket)
+            .repeating(),
+    );
+    actions.push(
+        Action::app(Group::Overlay, "Smaller points", sized(size / 1.25))
+            .key(NONE, Key::OpenBracket)
+            .repeating(),
+    );
+    actions
+}
+
+/// A coloring's name in menus.
+pub fn coloring_title(coloring: Coloring) -> &'static str {
+    match coloring {
+        Coloring::Rgb => "Colors of the file",
+        Coloring::Side => "Side of the plane",
+        Coloring::Partner => "Visible symmetric partner",
+        Coloring::Distance => "Distance d",
+        Coloring::Angle => "Angle ξ",
+        Coloring::Score => "Contribution d + τξ",
+        Coloring::Normal => "Direction of the normal",
+        Coloring::Label => "Label",
+    }
+}
+
+/// An overlay's name in menus, and its key.
+pub fn overlay_title(overlay: Overlay) -> (&'static str, Option<Key>) {
+    match overlay {
+        Overlay::Plane => ("Candidate plane", Some(Key::P)),
+        Overlay::Normal => ("Plane's normal", Some(Key::N)),
+        Overlay::Center => ("Fruit center", None),
+        Overlay::Viewpoint => ("Viewpoint and its ray", Some(Key::V)),
+        Overlay::Axis => ("Computed axis", Some(Key::A)),
+        Overlay::Reference => ("Reference axis", Some(Key::R)),
+        Overlay::Ghost => ("Mirrored cloud", Some(Key::G)),
+        Overlay::Partners => ("Lines to partners", Some(Key::L)),
+        Overlay::Normals => ("Normals of points", Some(Key::M)),
+        Overlay::Legend => ("Legend", None),
+        Overlay::Scale => ("Scale bar", None),
+        Overlay::Triad => ("Directions x, y, z", None),
+        Overlay::Caption => ("Caption", None),
+    }
+}
+
+fn window_actions(state: &State) -> Vec<Action> {
+    use Group::Window;
+    let mut other = state.style.clone();
+    other.theme = if state.is_dark() {
+        Theme::Light
+    } else {
+        Theme::Dark
+    };
+    let scale = state.interface_scale;
+    let mut actions = vec![
+        Action::window("Keys and help", Window, WindowAct::Help)
+            .key(NONE, Key::F1)
+            .key(NONE, Key::Questionmark),
+        Action::window("Find a command …", Window, WindowAct::Palette)
+            .key(CTRL, Key::P)
+            .key(CTRL, Key::K),
+        Action::app(Window, "Light colors", Command::Style(Box::new(other)))
+            .key(NONE, Key::T)
+            .on(!state.is_dark()),
+        Action::app(Window, "Larger interface", Command::Scale(scale + 0.1))
+            .key(CTRL, Key::Plus)
+            .key(CTRL, Key::Equals),
+        Action::app(Window, "Smaller interface", Command::Scale(scale - 0.1)).key(CTRL, Key::Minus),
+        Action::app(Window, "Interface of usual size", Command::Scale(1.0)).key(CTRL, Key::Num0),
+        Action::window("Arrange the panels as at first", Window, WindowAct::ResetLayout),
+        Action::window("About Axiscope", Window, WindowAct::About),
+    ];
+    actions.extend(
+        Pane::ALL
+            .into_iter()
+            .filter(|&pane| pane != Pane::View)
+            .map(|pane| Action::window(format!("Panel: {}", pane.title()), Window, WindowAct::Show(pane))),
+    );
+    actions
+}

@@ -1,0 +1,470 @@
+//! The histogram of what the points of a plane add to its score, which is brushed to find them.
+
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
+use egui::{
+    Align2, Color32, FontId, Key, Rect, Response, Sense, Stroke, TextStyle, Ui, WidgetInfo, accesskit::Role,
+    pos2, vec2,
+};
+
+use super::controls::hint;
+use crate::app::look::{Contributions, Look};
+use crate::app::why::why;
+use crate::app::{Command, State};
+
+const BARS: Color32 = Color32::from_rgb(0x2b, 0x8c, 0xd6);
+const PICKED: Color32 = Color32::from_rgb(0xe6, 0x9f, 0x00);
+
+/// Shows the histogram, and says what is brushed.
+pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    ui.spacing_mut().item_spacing.y = 4.0;
+    let drawn = state
+        .look
+        .as_ref()
+        .and_then(|look| Some((look, look.contributions.as_ref()?)));
+    let Some((look, contributions)) = drawn else {
+        empty(ui, state);
+        return;
+    };
+    let is_old = state.is_stale || state.is_look_pending;
+    let points: usize = contributions.counts.iter().sum();
+    let plane = look
+        .analysis
+        .as_ref()
+        .zip(look.plane_index)
+        .map(|(analysis, index)| {
+            let candidate = analysis.planes.grid.candidate(index);
+            format!(" of plane g {}, h {}", candidate.g, candidate.h)
+        });
+    hint(
+        ui,
+        format!(
+            "{} points with a partner{}: what each adds to the score, S = d + τξ (Eq. 15)",
+            grouped(points),
+            plane.unwrap_or_default()
+        ),
+    );
+    let picked_cm = state
+        .picked
+        .and_then(|index| why(state, index))
+        .and_then(|why| Some(why.steps.ok()?.partner?.score_cm));
+    ui.scope(|ui| {
+        if is_old {
+            ui.set_opacity(0.5);
+        }
+        Histogram {
+            contributions,
+            brush_cm: state.brush_cm.as_ref(),
+            picked_cm,
+        }
+        .show(ui, commands);
+    });
+    match &state.brush_cm {
+        Some(brush_cm) => brushed(ui, look, brush_cm, commands),
+        None => {
+            hint(ui, "Drag over the bars to see in the view which points they are.");
+        }
+    }
+}
+
+fn empty(ui: &mut Ui, state: &State) {
+    if state.shown().is_none() {
+        ui.label("Open a cloud first.");
+    } else if state.look.as_ref().is_some_and(|look| look.detail.is_some()) {
+        ui.label("No point has a visible partner under this plane, so none adds anything to its score.");
+    } else if state.analysis().is_none() {
+        ui.label("This cloud was not analyzed.");
+    } else {
+        ui.label(
+            "There is no plane to look at: none has enough partners. Lower the least share of partners.",
+        );
+    }
+}
+
+/// What is brushed, in words, and how to clear it.
+fn brushed(ui: &mut Ui, look: &Look, brush_cm: &RangeInclusive<f64>, commands: &mut Vec<Command>) {
+    let Some(counted) = Counted::of(ui, look, brush_cm) else {
+        return;
+    };
+    let range = if brush_cm.end().is_finite() {
+        format!("{:.3} to {:.3} cm", brush_cm.start(), brush_cm.end())
+    } else {
+        format!("{:.3} cm and above", brush_cm.start())
+    };
+    ui.horizontal_wrapped(|ui| {
+        ui.label(format!(
+            "{range}: {} points, {:.0} % of the points and {:.0} % of the sum",
+            grouped(counted.points),
+            100.0 * counted.points as f64 / counted.all_points.max(1) as f64,
+            100.0 * counted.share_of_sum
+        ));
+        if ui
+            .small_button("Clear")
+            .on_hover_text("Shows all points again. Escape does too.")
+            .clicked()
+        {
+            commands.push(Command::Brush(None));
+        }
+    });
+    let no_field_has_focus = ui.memory(|memory| memory.focused().is_none());
+    if no_field_has_focus && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape)) {
+        commands.push(Command::Brush(None));
+    }
+}
+
+/// A count with thin gaps between thousands.
+fn grouped(count: usize) -> String {
+    let digits = count.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// What lies in the brush: counted once for each brush, not each frame.
+#[derive(Debug, Clone)]
+struct Counted {
+    detail: Arc<crate::method::PlaneDetail>,
+    tau_cm_per_rad: f64,
+    brush_cm: RangeInclusive<f64>,
+    points: usize,
+    all_points: usize,
+    share_of_sum: f64,
+}
+
+impl Counted {
+    fn of(ui: &Ui, look: &Look, brush_cm: &RangeInclusive<f64>) -> Option<Self> {
+        let detail = look.detail.as_ref()?;
+        let tau_cm_per_rad = look.analysis.as_ref()?.params.tau_cm_per_rad;
+        let memory = ui.id().with("counted");
+        let known = ui.data(|data| data.get_temp::<Self>(memory)).filter(|known| {
+            Arc::ptr_eq(&known.detail, detail)
+                && known.tau_cm_per_rad == tau_cm_per_rad
+                && known.brush_cm == *brush_cm
+        });
+        if known.is_some() {
+            return known;
+        }
+        let (mut points, mut all_points, mut sum, mut all) = (0, 0, 0.0, 0.0);
+        for partner in detail.points.iter().filter_map(|point| point.partner) {
+            let score_cm = partner.score_cm(tau_cm_per_rad);
+            (all_points, all) = (all_points + 1, all + score_cm);
+            if brush_cm.contains(&score_cm) {
+                (points, sum) = (points + 1, sum + score_cm);
+            }
+        }
+        let counted = Self {
+            detail: detail.clone(),
+            tau_cm_per_rad,
+            brush_cm: brush_cm.clone(),
+            points,
+            all_points,
+            share_of_sum: if all > 0.0 { sum / all } else { 0.0 },
+        };
+        ui.data_mut(|data| data.insert_temp(memory, counted.clone()));
+        Some(counted)
+    }
+}
+
+/// The histogram itself.
+struct Histogram<'a> {
+    contributions: &'a Contributions,
+    brush_cm: Option<&'a RangeInclusive<f64>>,
+    picked_cm: Option<f64>,
+}
+
+/// Where the bars are.
+struct Frame {
+    bars: Rect,
+    most_cm: f64,
+    most_points: usize,
+}
+
+impl Frame {
+    fn x(&self, cm: f64) -> f32 {
+        self.bars.left() + self.bars.width() * (cm / self.most_cm).clamp(0.0, 1.0) as f32
+    }
+
+    fn cm(&self, x: f32) -> f64 {
+        let part = (x - self.bars.left()) / self.bars.width();
+        f64::from(part.clamp(0.0, 1.0)) * self.most_cm
+    }
+
+    fn y(&self, points: f64) -> f32 {
+        self.bars.bottom() - self.bars.height() * (points / self.most_points.max(1) as f64) as f32
+    }
+}
+
+impl Histogram<'_> {
+    fn show(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        // A line or two of text stand under it.
+        let height = (ui.available_height() - 44.0).clamp(130.0, 260.0);
+        let (rect, response) =
+            ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
+        response.widget_info(|| {
+            WidgetInfo::labeled(
+                Role::Image,
+                ui.is_enabled(),
+                "Histogram of the contributions S in centimeters",
+            )
+        });
+        let small = TextStyle::Small.resolve(ui.style());
+        let most_points = self.contributions.counts.iter().copied().max().unwrap_or(0);
+        let widest = ui
+            .painter()
+            .layout_no_wrap(grouped(most_points), small.clone(), Color32::PLACEHOLDER)
+            .size()
+            .x;
+        let mut bars = rect;
+        bars.min.x += widest + 8.0;
+        bars.min.y += 18.0;
+        bars.max.x -= 2.0;
+        bars.max.y -= 32.0;
+        let frame = Frame {
+            bars,
+            most_cm: self.contributions.bin_cm * self.contributions.counts.len() as f64,
+            most_points,
+        };
+        self.drag(ui, &response, &frame, commands);
+        self.paint_bars(ui, &frame);
+        paint_axes(ui, &frame, &small, rect);
+        self.paint_last_bin(ui, &frame, &small);
+        self.paint_marks(ui, &frame, &small);
+        if let Some(at) = response.hover_pos().filter(|_| !response.dragged()) {
+            self.tell(response, frame.cm(at.x));
+        }
+    }
+
+    /// Brushes while dragging; a click clears.
+    fn drag(&self, ui: &Ui, response: &Response, frame: &Frame, commands: &mut Vec<Command>) {
+        let begin = response.id.with("begin");
+        if response.drag_started() {
+            let at = ui.input(|input| input.pointer.press_origin());
+            let at = at.or(response.interact_pointer_pos());
+            if let Some(at) = at {
+                ui.data_mut(|data| data.insert_temp(begin, frame.cm(at.x)));
+            }
+        }
+        if response.dragged()
+            && let Some(at) = response.interact_pointer_pos()
+            && let Some(from) = ui.data(|data| data.get_temp::<f64>(begin))
+        {
+            let to = frame.cm(at.x);
+            let (low, high) = (from.min(to), from.max(to));
+            // The last bin holds all that is above it.
+            let is_in_last_bin = high > frame.most_cm - self.contributions.bin_cm;
+            let high = if is_in_last_bin { f64::INFINITY } else { high };
+            let wanted = low..=high;
+            if high > low && self.brush_cm != Some(&wanted) {
+                commands.push(Command::Brush(Some(wanted)));
+            }
+        }
+        if response.clicked() && self.brush_cm.is_some() {
+            commands.push(Command::Brush(None));
+        }
+    }
+
+    fn paint_bars(&self, ui: &Ui, frame: &Frame) {
+        let painter = ui.painter();
+        if let Some(brush) = self.brush_cm {
+            let range = frame.x(*brush.start())..=frame.x(*brush.end());
+            let rect = Rect::from_x_y_ranges(range, frame.bars.y_range());
+            painter.rect_filled(rect, 0.0, BARS.gamma_multiply(0.22));
+            for x in [rect.left(), rect.right()] {
+                painter.vline(x, frame.bars.y_range(), Stroke::new(1.0, BARS));
+            }
+        }
+        let dim = ui.visuals().text_color().gamma_multiply(0.45);
+        for (bin, &points) in self.contributions.counts.iter().enumerate() {
+            if points == 0 {
+                continue;
+            }
+            let (from, to) = self.span(bin);
+            let middle = 0.5 * (from + to);
+            let color = match self.brush_cm {
+                Some(brush) if !brush.contains(&middle) => dim,
+                _ => BARS,
+            };
+            // The least that there is can be seen.
+            let top = frame.y(points as f64).min(frame.bars.bottom() - 1.0);
+            let gap = if frame.bars.width() > 144.0 { 0.5 } else { 0.0 };
+            let rect = Rect::from_min_max(
+                pos2(frame.x(from) + gap, top),
+                pos2(frame.x(to) - gap, frame.bars.bottom()),
+            );
+            painter.rect_filled(rect, 0.0, color);
+        }
+    }
+
+    /// The contributions that a bin holds, but for what the last one holds beyond.
+    fn span(&self, bin: usize) -> (f64, f64) {
+        let width = self.contributions.bin_cm;
+        (bin as f64 * width, (bin + 1) as f64 * width)
+    }
+
+    fn holds_more(&self, frame: &Frame) -> bool {
+        self.contributions.most_cm > frame.most_cm
+    }
+
+    fn paint_last_bin(&self, ui: &Ui, frame: &Frame, font: &FontId) {
+        let last = self.contributions.counts.len().saturating_sub(1);
+        if !self.holds_more(frame) {
+            return;
+        }
+        let color = ui.visuals().text_color();
+        let (from, _) = self.span(last);
+        let x = 0.5 * (frame.x(from) + frame.bars.right());
+        let top = frame.y(self.contributions.counts[last] as f64) - 3.0;
+        let text = format!("up to {:.2}", self.contributions.most_cm);
+        let galley = ui.painter().layout_no_wrap(text, font.clone(), color);
+        let place = pos2(frame.bars.right() - galley.size().x, top - galley.size().y - 6.0);
+        ui.painter().galley(place, galley, color);
+        ui.painter().vline(x, (top - 6.0)..=top, Stroke::new(1.0, color));
+    }
+
+    fn paint_marks(&self, ui: &Ui, frame: &Frame, font: &FontId) {
+        let ink = ui.visuals().strong_text_color();
+        let x = frame.x(self.contributions.mean_cm);
+        let from = frame.bars.top() - 4.0;
+        ui.painter()
+            .vline(x, from..=frame.bars.bottom(), Stroke::new(1.5, ink));
+        let text = format!("mean {:.3} cm", self.contributions.mean_cm);
+        let galley = ui.painter().layout_no_wrap(text, font.clone(), ink);
+        let left = (x - 0.5 * galley.size().x)
+            .min(frame.bars.right() - galley.size().x)
+            .max(frame.bars.left());
+        ui.painter()
+            .galley(pos2(left, from - galley.size().y), galley, ink);
+        if let Some(picked_cm) = self.picked_cm {
+            let x = frame.x(picked_cm);
+            let y = frame.bars.bottom();
+            let corners = vec![pos2(x, y - 1.0), pos2(x - 5.0, y + 8.0), pos2(x + 5.0, y + 8.0)];
+            ui.painter().add(egui::Shape::convex_polygon(
+                corners,
+                PICKED,
+                Stroke::new(1.0, ink),
+            ));
+        }
+    }
+
+    /// What the bin under the cursor holds.
+    fn tell(&self, response: Response, cm: f64) {
+        let last = self.contributions.counts.len().saturating_sub(1);
+        // Not negative.
+        let bin = ((cm / self.contributions.bin_cm) as usize).min(last);
+        let (from, to) = self.span(bin);
+        let points = grouped(self.contributions.counts[bin]);
+        let is_open = bin == last && self.contributions.most_cm > to;
+        let range = if is_open {
+            format!("{from:.3} cm and above")
+        } else {
+            format!("{from:.3} to {to:.3} cm")
+        };
+        let mut text = format!("{range}: {points} points");
+        if let Some(picked_cm) = self.picked_cm {
+            text += &format!("\nThe triangle marks the picked point: {picked_cm:.3} cm");
+        }
+        response.on_hover_text_at_pointer(text);
+    }
+}
+
+/// A step of 1, 2 or 5 times a power of ten that gives about `count` ticks up to `most`.
+fn step(most: f64, count: f64) -> f64 {
+    let rough = most / count;
+    let power = 10.0_f64.powf(rough.log10().floor());
+    let part = rough / power;
+    let whole = if part <= 1.0 {
+        1.0
+    } else if part <= 2.0 {
+        2.0
+    } else if part <= 5.0 {
+        5.0
+    } else {
+        10.0
+    };
+    whole * power
+}
+
+fn paint_axes(ui: &Ui, frame: &Frame, font: &FontId, rect: Rect) {
+    let (painter, color) = (ui.painter(), ui.visuals().text_color());
+    let stroke = Stroke::new(1.0, color);
+    painter.hline(frame.bars.x_range(), frame.bars.bottom(), stroke);
+    let step = step(
+        frame.most_cm,
+        f64::from(frame.bars.width() / 60.0).clamp(2.0, 8.0),
+    );
+    let decimals = usize::try_from((-step.log10().floor()) as i64).unwrap_or(0);
+    let mut tick = 0.0;
+    while tick <= frame.most_cm * (1.0 + 1e-9) {
+        let x = frame.x(tick);
+        painter.vline(x, frame.bars.bottom()..=frame.bars.bottom() + 3.0, stroke);
+        let text = format!("{tick:.decimals$}");
+        let galley = painter.layout_no_wrap(text, font.clone(), color);
+        let left = (x - 0.5 * galley.size().x).min(rect.right() - galley.size().x);
+        painter.galley(pos2(left, frame.bars.bottom() + 4.0), galley, color);
+        tick += step;
+    }
+    painter.text(
+        pos2(frame.bars.center().x, rect.bottom()),
+        Align2::CENTER_BOTTOM,
+        "S (cm)",
+        font.clone(),
+        color,
+    );
+    let most = grouped(frame.most_points);
+    let left = frame.bars.left() - 4.0;
+    painter.text(
+        pos2(left, frame.bars.top()),
+        Align2::RIGHT_CENTER,
+        most,
+        font.clone(),
+        color,
+    );
+    painter.text(
+        pos2(left, frame.bars.bottom()),
+        Align2::RIGHT_CENTER,
+        "0",
+        font.clone(),
+        color,
+    );
+    painter.text(
+        pos2(rect.left(), rect.top()),
+        Align2::LEFT_TOP,
+        "points",
+        font.clone(),
+        color,
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_few() {
+        for (most, count, expected) in [
+            (1.0, 4.0, 0.5),
+            (0.9, 5.0, 0.2),
+            (37.0, 4.0, 10.0),
+            (2.0, 2.0, 1.0),
+        ] {
+            assert!((step(most, count) - expected).abs() < 1e-12, "{most} {count}");
+        }
+    }
+
+    #[test]
+    fn thousands_are_parted() {
+        assert_eq!(
+            ["0", "999", "1,000", "1,234,567"],
+            [0, 999, 1000, 1_234_567]
+                .map(grouped)
+                .each_ref()
+                .map(|s| s.as_str())
+        );
+    }
+}

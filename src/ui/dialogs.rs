@@ -1,0 +1,71 @@
+//! The desktop's own dialogs, waited for beside the interface.
+
+use std::path::PathBuf;
+use std::sync::mpsc::Sender;
+
+use rfd::{AsyncFileDialog, FileHandle};
+
+/// What somebody answered.
+pub(super) enum Asked {
+    /// These files or folders are to be opened.
+    Open(Vec<PathBuf>),
+    /// The view is to be saved here.
+    SaveImage(PathBuf),
+    /// No dialog could be shown.
+    Failed(String),
+}
+
+pub(super) fn open_files(ctx: &egui::Context, answers: Sender<Asked>) {
+    let dialog = AsyncFileDialog::new()
+        .set_title("Open point clouds")
+        .add_filter("Point clouds (PLY)", &["ply", "PLY"]);
+    let answer = dialog.pick_files();
+    wait(ctx, answers, async move {
+        let paths = answer.await?.iter().map(path_of).collect();
+        Some(Asked::Open(paths))
+    });
+}
+
+pub(super) fn open_folder(ctx: &egui::Context, answers: Sender<Asked>) {
+    let answer = AsyncFileDialog::new()
+        .set_title("Open a folder of point clouds")
+        .pick_folder();
+    wait(ctx, answers, async move {
+        Some(Asked::Open(vec![path_of(&answer.await?)]))
+    });
+}
+
+pub(super) fn save_image(ctx: &egui::Context, answers: Sender<Asked>, name: &str) {
+    let answer = AsyncFileDialog::new()
+        .set_title("Save the view")
+        .set_file_name(name)
+        .add_filter("PNG", &["png"])
+        .save_file();
+    wait(ctx, answers, async move {
+        Some(Asked::SaveImage(path_of(&answer.await?)))
+    });
+}
+
+fn path_of(handle: &FileHandle) -> PathBuf {
+    handle.path().to_owned()
+}
+
+/// Dialogs are made on the interface's thread, as some systems want it, and waited for on another.
+fn wait(
+    ctx: &egui::Context,
+    answers: Sender<Asked>,
+    answer: impl Future<Output = Option<Asked>> + Send + 'static,
+) {
+    let ctx = ctx.clone();
+    let waiting = answers.clone();
+    let thread = std::thread::Builder::new().name("dialog".into()).spawn(move || {
+        if let Some(answer) = pollster::block_on(answer) {
+            // Nobody listens any more where the window has closed meanwhile.
+            let _ = waiting.send(answer);
+            ctx.request_repaint();
+        }
+    });
+    if let Err(error) = thread {
+        let _ = answers.send(Asked::Failed(format!("No dialog could be shown: {error}.")));
+    }
+}

@@ -1,0 +1,111 @@
+//! The panels and how they are arranged; people move them about.
+
+use egui_tiles::{Container, Linear, LinearDir, TileId, Tiles, Tree};
+use serde::{Deserialize, Serialize};
+
+/// A panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Pane {
+    /// The 3-D view.
+    View,
+    /// The open clouds.
+    Files,
+    /// Every number and choice.
+    Parameters,
+    /// The u × u map of scores.
+    ScoreMap,
+    /// The normals on a hemisphere.
+    Hemisphere,
+    /// The planes by rank.
+    Ranking,
+    /// Why one point scores as it does.
+    Point,
+    /// How the contributions are spread.
+    Contributions,
+}
+
+impl Pane {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::View,
+        Self::Files,
+        Self::Parameters,
+        Self::ScoreMap,
+        Self::Hemisphere,
+        Self::Ranking,
+        Self::Point,
+        Self::Contributions,
+    ];
+
+    /// What its tab says.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::View => "View",
+            Self::Files => "Clouds",
+            Self::Parameters => "Parameters",
+            Self::ScoreMap => "Score map",
+            Self::Hemisphere => "Hemisphere",
+            Self::Ranking => "Ranking",
+            Self::Point => "Why this score?",
+            Self::Contributions => "Contributions",
+        }
+    }
+}
+
+/// The arrangement at first: clouds and parameters on the left, the view, and the planes and points
+/// on the right.
+pub fn first_layout() -> Tree<Pane> {
+    let mut tiles = Tiles::default();
+    let [
+        view,
+        files,
+        parameters,
+        map,
+        hemisphere,
+        ranking,
+        point,
+        contributions,
+    ] = Pane::ALL.map(|pane| tiles.insert_pane(pane));
+    let left = tiles.insert_tab_tile(vec![parameters, files]);
+    let above = tiles.insert_tab_tile(vec![map, hemisphere]);
+    let middle = tiles.insert_tab_tile(vec![ranking]);
+    let below = tiles.insert_tab_tile(vec![point, contributions]);
+    // A tab tile shows its first child unless told otherwise.
+    for (tabs, first) in [
+        (left, parameters),
+        (above, map),
+        (middle, ranking),
+        (below, point),
+    ] {
+        if let Some(egui_tiles::Tile::Container(Container::Tabs(tabs))) = tiles.get_mut(tabs) {
+            tabs.set_active(first);
+        }
+    }
+    let right = linear(
+        &mut tiles,
+        LinearDir::Vertical,
+        &[(above, 1.25), (middle, 0.8), (below, 1.0)],
+    );
+    let view_tabs = tiles.insert_tab_tile(vec![view]);
+    let root = linear(
+        &mut tiles,
+        LinearDir::Horizontal,
+        &[(left, 0.9), (view_tabs, 2.6), (right, 1.1)],
+    );
+    Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+fn linear(tiles: &mut Tiles<Pane>, dir: LinearDir, children: &[(TileId, f32)]) -> TileId {
+    let mut linear = Linear::new(dir, children.iter().map(|(id, _)| *id).collect());
+    for &(id, share) in children {
+        linear.shares.set_share(id, share);
+    }
+    tiles.insert_container(linear)
+}
+
+/// The arrangement that a text describes; `None` where it lacks a panel or makes no sense.
+pub fn layout_from(text: &str) -> Option<Tree<Pane>> {
+    let tree: Tree<Pane> = serde_json::from_str(text).ok()?;
+    let has_all = Pane::ALL.iter().all(|pane| tree.tiles.find_pane(pane).is_some());
+    (has_all && tree.root.is_some()).then_some(tree)
+}

@@ -1,0 +1,93 @@
+//! Which panel draws what.
+
+use egui::{Frame, Margin, Panel, ScrollArea, WidgetText};
+use egui_tiles::{Behavior, SimplificationOptions, TileId, UiResponse};
+
+use super::actions::{Act, Action, WindowAct};
+use super::files::{self, FilesAnswer};
+use super::layout::Pane;
+use super::{contributions, hemisphere, parameters, point, ranking, score_map, scrub, view_bar, view3d};
+use crate::app::{Command, State};
+use crate::render::Viewport;
+
+/// What the panels are given, and what they say.
+pub(super) struct Panes<'a> {
+    pub(super) state: &'a State,
+    pub(super) actions: &'a [Action],
+    pub(super) is_gpu: bool,
+    pub(super) acts: &'a mut Vec<Act>,
+    pub(super) commands: &'a mut Vec<Command>,
+    /// The 3-D view's size, where it is shown.
+    pub(super) viewport: &'a mut Option<Viewport>,
+}
+
+impl Behavior<Pane> for Panes<'_> {
+    fn pane_ui(&mut self, ui: &mut egui::Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
+        if *pane == Pane::View {
+            self.view(ui);
+        } else {
+            Frame::new()
+                .inner_margin(Margin::same(8))
+                .show(ui, |ui| self.panel(ui, *pane));
+        }
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
+        pane.title().into()
+    }
+
+    fn simplification_options(&self) -> SimplificationOptions {
+        SimplificationOptions {
+            all_panes_must_have_tabs: true,
+            ..SimplificationOptions::default()
+        }
+    }
+
+    fn min_size(&self) -> f32 {
+        120.0
+    }
+
+    fn gap_width(&self, _style: &egui::Style) -> f32 {
+        4.0
+    }
+}
+
+impl Panes<'_> {
+    fn view(&mut self, ui: &mut egui::Ui) {
+        Frame::new().inner_margin(Margin::symmetric(8, 4)).show(ui, |ui| {
+            view_bar::show(ui, self.state, self.actions, self.acts);
+        });
+        Panel::bottom("scrub").show_separator_line(false).show(ui, |ui| {
+            scrub::show(ui, self.state, self.commands);
+        });
+        let answer = view3d::show(ui, self.state, self.is_gpu, self.commands);
+        *self.viewport = Some(answer.viewport);
+    }
+
+    fn panel(&mut self, ui: &mut egui::Ui, pane: Pane) {
+        let (state, commands) = (self.state, &mut *self.commands);
+        match pane {
+            Pane::View => {}
+            Pane::Files => {
+                if let Some(FilesAnswer::OpenDialog) = files::show(ui, state, commands) {
+                    self.acts.push(Act::Window(WindowAct::OpenFiles));
+                }
+            }
+            Pane::Parameters => {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    parameters::show(ui, state, commands);
+                });
+            }
+            Pane::ScoreMap => score_map::show(ui, state, commands),
+            Pane::Hemisphere => hemisphere::show(ui, state, commands),
+            Pane::Ranking => ranking::show(ui, state, commands),
+            Pane::Point => {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    point::show(ui, state, commands);
+                });
+            }
+            Pane::Contributions => contributions::show(ui, state, commands),
+        }
+    }
+}

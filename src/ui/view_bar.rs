@@ -1,0 +1,127 @@
+//! The bar over the view: coloring, overlays, usual places to look from.
+
+use egui::{ComboBox, RichText};
+
+use super::actions::{Act, Action, Group, coloring_title};
+use crate::app::{Command, State};
+use crate::evaluate::TruthChoice;
+use crate::method::AxisSource;
+use crate::view::{Coloring, ViewPreset};
+
+/// Shows the bar.
+pub fn show(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
+    ui.horizontal_wrapped(|ui| {
+        colorings(ui, state, actions, acts);
+        overlays(ui, actions, acts);
+        ui.separator();
+        for (text, preset) in [
+            ("Camera", ViewPreset::Camera),
+            ("Front", ViewPreset::Front),
+            ("Side", ViewPreset::Side),
+            ("Top", ViewPreset::Top),
+            ("Normal", ViewPreset::Normal),
+            ("Axis", ViewPreset::Axis),
+        ] {
+            button(ui, text, &Act::App(Command::View(preset)), actions, acts);
+        }
+        button(ui, "All", &Act::App(Command::Frame), actions, acts);
+        let parallel = actions
+            .iter()
+            .find(|a| matches!(a.act, Act::App(Command::Project(_))));
+        if let Some(action) = parallel {
+            let is_on = action.is_on == Some(true);
+            let response = ui
+                .selectable_label(is_on, "Parallel")
+                .on_hover_text(tip(ui.ctx(), action));
+            if response.clicked() {
+                acts.push(action.act.clone());
+            }
+        }
+        references(ui, state, acts);
+    });
+}
+
+fn colorings(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
+    let label = ui.label("Color");
+    let current = state.style.coloring;
+    ComboBox::from_id_salt("coloring")
+        .selected_text(coloring_title(current))
+        .width(146.0)
+        .show_ui(ui, |ui| {
+            let titles = Coloring::ALL.map(coloring_title);
+            for action in actions.iter().filter(|a| a.group == Group::Color) {
+                let is_on = action.is_on == Some(true);
+                let keys = action.keys_text(ui.ctx());
+                let is_known = titles.contains(&action.title.as_str());
+                let button = egui::Button::selectable(is_on, action.title.as_str()).shortcut_text(keys);
+                if is_known && ui.add(button).clicked() {
+                    acts.push(action.act.clone());
+                }
+            }
+        })
+        .response
+        .labelled_by(label.id);
+}
+
+fn overlays(ui: &mut egui::Ui, actions: &[Action], acts: &mut Vec<Act>) {
+    ui.menu_button("Show", |ui| {
+        ui.set_min_width(210.0);
+        for action in actions.iter().filter(|a| a.group == Group::Overlay) {
+            let Some(mut is_on) = action.is_on else { continue };
+            ui.horizontal(|ui| {
+                if ui.checkbox(&mut is_on, action.title.as_str()).clicked() {
+                    acts.push(action.act.clone());
+                }
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    ui.label(RichText::new(action.keys_text(ui.ctx())).weak());
+                });
+            });
+        }
+    })
+    .response
+    .on_hover_text("What is drawn over the points");
+}
+
+fn button(ui: &mut egui::Ui, text: &str, act: &Act, actions: &[Action], acts: &mut Vec<Act>) {
+    let Some(action) = actions.iter().find(|a| a.act == *act) else {
+        return;
+    };
+    let button = ui.add_enabled(action.is_enabled, egui::Button::new(text));
+    if button.on_hover_text(tip(ui.ctx(), action)).clicked() {
+        acts.push(act.clone());
+    }
+}
+
+fn tip(ctx: &egui::Context, action: &Action) -> String {
+    format!("{} ({})", action.title, action.keys_text(ctx))
+}
+
+/// Which reference the error is measured against, where there are several.
+fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
+    if state.references.len() < 2 {
+        return;
+    }
+    let choice_of = |source: &AxisSource| match source {
+        AxisSource::Simulation => TruthChoice::Truth,
+        _ => TruthChoice::Peduncle,
+    };
+    let name = |source: &AxisSource| match source {
+        AxisSource::Simulation => "Simulated axis",
+        _ => "Peduncle's axis",
+    };
+    let Some(current) = state.reference() else { return };
+    let label = ui.label("against");
+    ComboBox::from_id_salt("reference")
+        .selected_text(name(&current.source))
+        .width(112.0)
+        .show_ui(ui, |ui| {
+            for reference in &state.references {
+                let is_on = reference.source == current.source;
+                if ui.selectable_label(is_on, name(&reference.source)).clicked() {
+                    acts.push(Act::App(Command::Compare(choice_of(&reference.source))));
+                }
+            }
+        })
+        .response
+        .labelled_by(label.id);
+}

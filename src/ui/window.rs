@@ -1,0 +1,343 @@
+//! The window: panels around the view, keys, dialogs, and what is kept for the next time.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{Duration, Instant};
+
+use egui::{CentralPanel, Frame, Panel, ViewportCommand};
+use egui_tiles::Tree;
+
+use super::actions::{Act, Action, WindowAct, actions};
+use super::dialogs::{self, Asked};
+use super::layout::{Pane, first_layout, layout_from};
+use super::paint::Views;
+use super::palette::{Answer, Palette};
+use super::panes::Panes;
+use super::{help, menu, status, theme};
+use crate::app::worker::Repaint;
+use crate::app::{App, Command, Session, command_line, quoted};
+
+/// How the window begins.
+pub struct Start {
+    /// What is kept from the last time.
+    pub session: Session,
+    /// Where it is kept; `None` for a window that keeps nothing.
+    pub session_path: Option<PathBuf>,
+    /// What is to be opened.
+    pub paths: Vec<PathBuf>,
+    /// What has to be said at once.
+    pub problem: Option<String>,
+}
+
+/// The window.
+pub struct Window {
+    app: App,
+    tree: Tree<Pane>,
+    is_help_open: bool,
+    is_about_open: bool,
+    palette: Option<Palette>,
+    answers: (Sender<Asked>, Receiver<Asked>),
+    session_path: Option<PathBuf>,
+    kept: Option<Session>,
+    last_frame: Option<Instant>,
+    last_kept: Instant,
+    is_gpu: bool,
+    is_software: bool,
+    title: String,
+}
+
+impl Window {
+    /// Sets the window up and opens what is to be opened: the paths; or else what was open last time;
+    /// or else a sample.
+    ///
+    /// # Errors
+    /// Where the operating system starts no thread.
+    pub fn new(context: &eframe::CreationContext<'_>, start: Start) -> std::io::Result<Self> {
+        let ctx = context.egui_ctx.clone();
+        theme::set_up(&ctx);
+        let (mut is_gpu, mut is_software) = (false, true);
+        if let Some(gpu) = &context.wgpu_render_state {
+            let views = Views::new(&gpu.device, gpu.target_format);
+            gpu.renderer.write().callback_resources.insert(views);
+            is_gpu = true;
+            is_software = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        }
+        let repaint: Repaint = {
+            let ctx = ctx.clone();
+            Arc::new(move || ctx.request_repaint())
+        };
+        let layout = start.session.layout.as_deref().and_then(layout_from);
+        let (open, current) = (start.session.open.clone(), start.session.current);
+        let mut app = App::new(start.session, &repaint)?;
+        if let Some(problem) = start.problem {
+            app.apply(Command::Say {
+                is_error: true,
+                text: problem,
+            });
+        }
+        if !start.paths.is_empty() {
+            app.apply(Command::Open(start.paths));
+        } else if open.iter().any(|path| path.exists()) {
+            app.apply(Command::Open(
+                open.into_iter().filter(|path| path.exists()).collect(),
+            ));
+            app.apply(Command::Show(current.unwrap_or(0)));
+        }
+        if app.state().current.is_none() {
+            app.apply(Command::OpenSample(crate::app::Sample::Pepper));
+        }
+        Ok(Self {
+            app,
+            tree: layout.unwrap_or_else(first_layout),
+            is_help_open: false,
+            is_about_open: false,
+            palette: None,
+            answers: channel(),
+            session_path: start.session_path,
+            kept: None,
+            last_frame: None,
+            last_kept: Instant::now(),
+            is_gpu,
+            is_software,
+            title: String::new(),
+        })
+    }
+
+    /// The program behind the window.
+    pub fn app(&self) -> &App {
+        &self.app
+    }
+
+    /// The program behind the window, for tests that set what a person would drag.
+    pub fn app_mut(&mut self) -> &mut App {
+        &mut self.app
+    }
+
+    fn frame(&mut self, ui: &mut egui::Ui) {
+        let ctx = ui.ctx().clone();
+        let mut acts = Vec::new();
+        self.files(&ctx, &mut acts);
+        let all = actions(self.app.state());
+        self.keys(&ctx, &all, &mut acts);
+
+        let mut commands = Vec::new();
+        Panel::top("menu").show(ui, |ui| menu::show(ui, self.app.state(), &all, &mut acts));
+        Panel::bottom("status").show(ui, |ui| {
+            ui.add_space(2.0);
+            status::show(ui, self.app.state(), &mut commands);
+            ui.add_space(2.0);
+        });
+        let mut viewport = None;
+        CentralPanel::default()
+            .frame(Frame::new().fill(ui.visuals().panel_fill))
+            .show(ui, |ui| {
+                let mut panes = Panes {
+                    state: self.app.state(),
+                    actions: &all,
+                    is_gpu: self.is_gpu,
+                    acts: &mut acts,
+                    commands: &mut commands,
+                    viewport: &mut viewport,
+                };
+                self.tree.ui(&mut panes, ui);
+            });
+        if self.is_help_open {
+            self.is_help_open = help::show(&ctx, &all);
+        }
+        if self.is_about_open {
+            self.is_about_open = super::about::show(&ctx);
+        }
+        if let Some(palette) = &mut self.palette {
+            match palette.show(&ctx, &all) {
+                Answer::Open => {}
+                Answer::Closed => self.palette = None,
+                Answer::Chosen(act) => {
+                    self.palette = None;
+                    acts.push(act);
+                }
+            }
+        }
+        if let Some(viewport) = viewport {
+            self.app
+                .set_view(viewport, ctx.pixels_per_point(), self.is_software);
+        }
+        for command in commands {
+            self.app.apply(command);
+        }
+        for act in acts {
+            match act {
+                Act::App(command) => self.app.apply(command),
+                Act::Window(act) => self.act(&ctx, act),
+            }
+        }
+    }
+
+    /// Files that were dropped, and answers of dialogs.
+    fn files(&mut self, ctx: &egui::Context, acts: &mut Vec<Act>) {
+        let dropped: Vec<PathBuf> = ctx.input(|i| {
+            let files = i.raw.dropped_files.iter();
+            files.map(|file| file.path().to_owned()).collect()
+        });
+        if !dropped.is_empty() {
+            acts.push(Act::App(Command::Open(dropped)));
+        }
+        while let Ok(answer) = self.answers.1.try_recv() {
+            acts.push(Act::App(match answer {
+                Asked::Open(paths) => Command::Open(paths),
+                Asked::SaveImage(path) => {
+                    let size_px = picture_size(self.app.state());
+                    Command::SaveImage { path, size_px }
+                }
+                Asked::Failed(text) => Command::Say { is_error: true, text },
+            }));
+        }
+    }
+
+    fn keys(&self, ctx: &egui::Context, all: &[Action], acts: &mut Vec<Act>) {
+        if self.is_help_open || self.is_about_open || self.palette.is_some() || ctx.text_edit_focused() {
+            return;
+        }
+        let is_focused = ctx.memory(|m| m.focused()).is_some();
+        // Those with more modifiers first: Shift + Left is also a Left.
+        let mut keys: Vec<(&Action, egui::KeyboardShortcut)> = all
+            .iter()
+            .flat_map(|action| action.keys.iter().map(move |key| (action, *key)))
+            .collect();
+        let modifiers =
+            |m: egui::Modifiers| u8::from(m.command) + u8::from(m.ctrl) + u8::from(m.shift) + u8::from(m.alt);
+        keys.sort_by_key(|(_, key)| std::cmp::Reverse(modifiers(key.modifiers)));
+        for (action, key) in keys {
+            // A focused slider or button has these for itself.
+            let is_widgets = key.modifiers.is_none()
+                && matches!(
+                    key.logical_key,
+                    egui::Key::Space
+                        | egui::Key::ArrowLeft
+                        | egui::Key::ArrowRight
+                        | egui::Key::ArrowUp
+                        | egui::Key::ArrowDown
+                );
+            if is_focused && is_widgets {
+                continue;
+            }
+            let is_first = ctx.input(|i| {
+                i.events.iter().any(|event| {
+                    matches!(event, egui::Event::Key { key: k, pressed: true, repeat: false, .. } if *k == key.logical_key)
+                })
+            });
+            if ctx.input_mut(|i| i.consume_shortcut(&key))
+                && action.is_enabled
+                && (is_first || action.repeats)
+            {
+                acts.push(action.act.clone());
+            }
+        }
+    }
+
+    fn act(&mut self, ctx: &egui::Context, act: WindowAct) {
+        let answers = self.answers.0.clone();
+        match act {
+            WindowAct::OpenFiles => dialogs::open_files(ctx, answers),
+            WindowAct::OpenFolder => dialogs::open_folder(ctx, answers),
+            WindowAct::SaveImage => {
+                let name = self.app.state().source().map(|s| s.path().with_extension("png"));
+                let name = name.and_then(|n| n.file_name().map(|n| n.to_string_lossy().into_owned()));
+                dialogs::save_image(ctx, answers, name.as_deref().unwrap_or("view.png"));
+            }
+            WindowAct::CopyCommandLine => {
+                let state = self.app.state();
+                let mut words = vec!["axiscope".to_owned()];
+                words.extend(command_line(state, "view.png", picture_size(state)));
+                ctx.copy_text(quoted(&words));
+                self.app.apply(Command::Say {
+                    is_error: false,
+                    text: "Copied the command line that draws this view.".into(),
+                });
+            }
+            WindowAct::Help => self.is_help_open = true,
+            WindowAct::About => self.is_about_open = true,
+            WindowAct::Palette => self.palette = Some(Palette::default()),
+            WindowAct::Show(pane) => {
+                let tile = self.tree.tiles.find_pane(&pane);
+                self.tree.make_active(|id, _| Some(id) == tile);
+            }
+            WindowAct::ResetLayout => self.tree = first_layout(),
+            WindowAct::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+        }
+    }
+
+    /// Keeps the session when it has changed, at most every few seconds.
+    fn keep(&mut self, now: bool, size: Option<[f32; 2]>) {
+        let Some(path) = &self.session_path else { return };
+        if !now && self.last_kept.elapsed() < Duration::from_secs(3) {
+            return;
+        }
+        self.last_kept = Instant::now();
+        let mut session = Session::of(self.app.state());
+        session.layout = serde_json::to_string(&self.tree).ok();
+        session.window_size = size.or(self.kept.as_ref().and_then(|k| k.window_size));
+        if self.kept.as_ref() == Some(&session) {
+            return;
+        }
+        if let Err(problem) = session.write(path) {
+            self.session_path = None;
+            self.app.apply(Command::Say {
+                is_error: true,
+                text: format!("{problem}."),
+            });
+            return;
+        }
+        self.kept = Some(session);
+    }
+}
+
+/// Twice the view's size, for print.
+fn picture_size(state: &crate::app::State) -> [u32; 2] {
+    // Clamped to what a picture may have.
+    [state.viewport.width_px, state.viewport.height_px].map(|s| (2.0 * s).clamp(1.0, 8192.0) as u32)
+}
+
+impl eframe::App for Window {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        let now = Instant::now();
+        let elapsed = self.last_frame.map_or(Duration::ZERO, |last| now - last);
+        self.last_frame = Some(now);
+        self.app.update(elapsed);
+        let state = self.app.state();
+        let scale = state.interface_scale;
+        if (ctx.zoom_factor() - scale).abs() > 1e-3 {
+            ctx.set_zoom_factor(scale);
+        }
+        ctx.set_theme(theme::interface_theme(state.style.theme));
+        if state.is_playing {
+            ctx.request_repaint();
+        } else if state.progress.is_some() {
+            ctx.request_repaint_after(Duration::from_millis(80));
+        } else if self.app.is_busy() {
+            ctx.request_repaint_after(Duration::from_millis(5));
+        }
+        let title = match state.source() {
+            Some(source) => format!("{} – Axiscope", source.name()),
+            None => "Axiscope".into(),
+        };
+        if title != self.title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+        let size = ctx.input(|i| i.viewport().inner_rect.map(|r| [r.width(), r.height()]));
+        self.keep(false, size);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.frame(ui);
+    }
+
+    fn on_exit(&mut self) {
+        self.keep(true, None);
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        false
+    }
+}
