@@ -38,9 +38,9 @@ enum Format {
 pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
     let started = Instant::now();
     let request = args.analysis.request();
-    let fruit = Fruit::read(&args.cloud, request.unit, &request.peduncle)?;
-    let read = milliseconds_since(started);
     let clock = StageClock::new();
+    let fruit = Fruit::read_watched(&args.cloud, request.unit, &request.peduncle, &clock)?;
+    let read = milliseconds_since(started);
     let examined = examine(fruit, &request, &clock);
     let times = clock.finish();
     let examined = examined.with_context(|| args.cloud.display().to_string())?;

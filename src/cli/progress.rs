@@ -7,7 +7,7 @@ use axiscope::geometry::Watch;
 use axiscope::method::{Observe, Stage};
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Watches one analysis: a bar once it takes long enough to wonder, and a clock for each stage.
+/// Watches one cloud being read and analyzed: a bar once it takes long enough to wonder, and a clock for each stage.
 pub(super) struct StageClock {
     bar: ProgressBar,
     started: Instant,
@@ -20,7 +20,7 @@ const PATIENCE: Duration = Duration::from_millis(500);
 impl StageClock {
     pub(super) fn new() -> Self {
         Self {
-            bar: bar("{msg:<16} {wide_bar} {percent:>3} %"),
+            bar: bar("{msg:<16} {wide_bar} {percent:>3} %").with_message("Reading"),
             started: Instant::now(),
             entered: Mutex::default(),
         }

@@ -27,4 +27,5 @@ pub use parallel::map_pieces;
 pub use plane::Plane;
 pub use spread::Spread;
 pub use unit::Unit;
+pub(crate) use watch::PartOf;
 pub use watch::{Cancelled, Watch};

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::ply::{self, PlyCloud, PlyError};
+use super::ply::{self, PlyCloud, PlyError, Problem};
+use crate::geometry::{Cancelled, PartOf, Watch};
 
 /// A cloud, and the file it came from.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,6 +58,24 @@ pub enum ReadErrorKind {
     /// It is no PLY file, or a malformed one.
     #[error(transparent)]
     Ply(PlyError),
+    /// Reading was called off.
+    #[error("reading was called off")]
+    Cancelled,
+}
+
+impl From<Cancelled> for ReadErrorKind {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+impl From<PlyError> for ReadErrorKind {
+    fn from(error: PlyError) -> Self {
+        match error.problem {
+            Problem::Cancelled => Self::Cancelled,
+            _ => Self::Ply(error),
+        }
+    }
 }
 
 impl From<io::Error> for ReadErrorKind {
@@ -76,37 +95,87 @@ impl From<io::Error> for ReadErrorKind {
 /// Where the file is missing, is not a regular file, cannot be read, or is no well-formed PLY file
 /// with vertices.
 pub fn read_cloud(path: impl AsRef<Path>) -> Result<CloudFile, ReadError> {
+    read_cloud_watched(path, &())
+}
+
+/// As [`read_cloud`], telling `watch` how far it is: first the bytes, then what they mean.
+///
+/// # Errors
+/// As [`read_cloud`]; and [`ReadErrorKind::Cancelled`] where the watch calls the work off, which it is
+/// asked every few milliseconds.
+pub fn read_cloud_watched(path: impl AsRef<Path>, watch: &dyn Watch) -> Result<CloudFile, ReadError> {
     let path = path.as_ref();
-    let bytes = bytes_of(path).map_err(|kind| ReadError {
+    let part = |from, to| PartOf {
+        watch,
+        pieces: from..to,
+        total: WHOLE,
+    };
+    let bytes = bytes_of(path, &part(0, FROM_DISK)).map_err(|kind| ReadError {
         path: path.to_owned(),
         kind,
     })?;
-    parse_cloud(path, &bytes)
+    parse_cloud_watched(path, &bytes, &part(FROM_DISK, WHOLE))
 }
+
+/// Into how many pieces reading is divided for whoever watches, and how many of them it takes to get
+/// the bytes.
+const WHOLE: usize = 1000;
+const FROM_DISK: usize = 300;
 
 /// A cloud from the bytes of a PLY file that somebody else has read; `path` is only told again.
 ///
 /// # Errors
 /// Where the bytes are no well-formed PLY file with vertices.
 pub fn parse_cloud(path: impl AsRef<Path>, bytes: &[u8]) -> Result<CloudFile, ReadError> {
+    parse_cloud_watched(path, bytes, &())
+}
+
+/// As [`parse_cloud`], telling `watch` how far it is.
+///
+/// # Errors
+/// As [`parse_cloud`]; and [`ReadErrorKind::Cancelled`] where the watch calls the work off.
+pub fn parse_cloud_watched(
+    path: impl AsRef<Path>,
+    bytes: &[u8],
+    watch: &dyn Watch,
+) -> Result<CloudFile, ReadError> {
     let path = path.as_ref().to_owned();
-    let hash = || hexadecimal(&Sha256::digest(bytes));
-    let parse = || ply::read(bytes);
+    let hash = || digest(bytes, watch);
+    let parse = || ply::read_watched(bytes, watch);
     // Each takes about as long as the other.
     #[cfg(feature = "parallel")]
     let (sha256, ply) = rayon::join(hash, parse);
     #[cfg(not(feature = "parallel"))]
     let (sha256, ply) = (hash(), parse());
-    match ply {
-        Ok(ply) => Ok(CloudFile { path, sha256, ply }),
-        Err(error) => Err(ReadError {
+    match (ply, sha256) {
+        (Ok(ply), Ok(sha256)) => Ok(CloudFile { path, sha256, ply }),
+        (Err(error), _) => Err(ReadError {
             path,
-            kind: ReadErrorKind::Ply(error),
+            kind: error.into(),
+        }),
+        (_, Err(cancelled)) => Err(ReadError {
+            path,
+            kind: cancelled.into(),
         }),
     }
 }
 
-fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadErrorKind> {
+/// SHA-256 of the file, a megabyte at a time.
+fn digest(bytes: &[u8], watch: &dyn Watch) -> Result<String, Cancelled> {
+    let mut hasher = Sha256::new();
+    for piece in bytes.chunks(1 << 20) {
+        if watch.is_cancelled() {
+            return Err(Cancelled);
+        }
+        hasher.update(piece);
+    }
+    Ok(hexadecimal(&hasher.finalize()))
+}
+
+/// Bytes between two looks at the watch: a few milliseconds.
+const PIECE: u64 = 4 << 20;
+
+fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
     // Before the file is opened: opening a pipe waits for somebody to write into it.
     let metadata = std::fs::metadata(path)?;
     if metadata.is_dir() {
@@ -122,8 +191,16 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadErrorKind> {
         return Err(ReadErrorKind::TooLarge { size });
     }
     // No more than it had, in case somebody writes faster than we read.
-    File::open(path)?.take(size).read_to_end(&mut bytes)?;
-    Ok(bytes)
+    let mut file = File::open(path)?.take(size);
+    loop {
+        if watch.is_cancelled() {
+            return Err(ReadErrorKind::Cancelled);
+        }
+        if file.by_ref().take(PIECE).read_to_end(&mut bytes)? == 0 {
+            return Ok(bytes);
+        }
+        watch.advanced(bytes.len(), usize::try_from(size).unwrap_or(usize::MAX));
+    }
 }
 
 /// SHA-256 of some bytes, in 64 lowercase hexadecimal digits.

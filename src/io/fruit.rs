@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{CloudFile, ReadError, read_cloud, unit_guess};
-use crate::geometry::{Cloud, Unit};
+use super::{CloudFile, ReadError, read_cloud, read_cloud_watched, unit_guess};
+use crate::geometry::{Cloud, Unit, Watch};
 use crate::reference::{HueRange, Peduncle, PeduncleError};
 use crate::simulate::Truth;
 
@@ -72,7 +72,20 @@ impl Fruit {
     /// # Errors
     /// Where a file cannot be read, or the peduncle is not found as asked.
     pub fn read(path: &Path, unit: Option<Unit>, choice: &PeduncleChoice) -> Result<Self, FruitError> {
-        Self::of_file(Arc::new(read_cloud(path)?), unit, choice)
+        Self::read_watched(path, unit, choice, &())
+    }
+
+    /// As [`Fruit::read`], telling `watch` how far the cloud is read.
+    ///
+    /// # Errors
+    /// As [`Fruit::read`], or where the watch calls the work off.
+    pub fn read_watched(
+        path: &Path,
+        unit: Option<Unit>,
+        choice: &PeduncleChoice,
+        watch: &dyn Watch,
+    ) -> Result<Self, FruitError> {
+        Self::of_file(Arc::new(read_cloud_watched(path, watch)?), unit, choice)
     }
 
     /// As [`Fruit::read`], of a cloud that was read before.

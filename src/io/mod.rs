@@ -10,7 +10,10 @@ mod picture;
 pub mod ply;
 pub mod unit_guess;
 
-pub use cloud_file::{CloudFile, ReadError, ReadErrorKind, parse_cloud, read_cloud, sha256_hex};
+pub use cloud_file::{
+    CloudFile, ReadError, ReadErrorKind, parse_cloud, parse_cloud_watched, read_cloud, read_cloud_watched,
+    sha256_hex,
+};
 pub use fruit::{Fruit, FruitError, PeduncleChoice, companion_path, truth_path};
 pub use picture::{
     PictureError, PictureSettings, SETTINGS_KEY, encode_picture, paint_annotations, picture_settings,

@@ -17,7 +17,7 @@ pub(super) fn read(
     header: &Header,
     vertex: &Element,
     columns: &Columns,
-    collector: &mut Collector,
+    collector: &mut Collector<'_>,
     notes: &mut Vec<Note>,
 ) -> Result<(), PlyError> {
     let body = Body { bytes };
@@ -31,9 +31,11 @@ pub(super) fn read(
             if !matches!(error.problem, Problem::RowLength { at_least: false, .. }) {
                 return Err(error);
             }
-            *collector = Collector::new(columns);
-            if !body.comes_out_even(header, vertex, columns, collector) {
-                return Err(error);
+            *collector = collector.afresh(columns);
+            match body.comes_out_even(header, vertex, columns, collector) {
+                Ok(true) => {}
+                Ok(false) => return Err(error),
+                Err(cancelled) => return Err(cancelled),
             }
             notes.push(Note::RowsWrap { place: error.place });
             Ok(())
@@ -60,7 +62,7 @@ impl Body<'_> {
         header: &Header,
         vertex: &Element,
         columns: &Columns,
-        collector: &mut Collector,
+        collector: &mut Collector<'_>,
     ) -> Result<usize, PlyError> {
         let mut at = header.body;
         for element in &header.elements {
@@ -73,19 +75,23 @@ impl Body<'_> {
     }
 
     /// Reads all elements word by word, wherever lines end. Whether that took all words there are, no
-    /// fewer and no more.
+    /// fewer and no more. Fails only where it is called off.
     fn comes_out_even(
         &self,
         header: &Header,
         vertex: &Element,
         columns: &Columns,
-        collector: &mut Collector,
-    ) -> bool {
+        collector: &mut Collector<'_>,
+    ) -> Result<bool, PlyError> {
         let end = header.elements.iter().try_fold(header.body, |at, element| {
             let sink = std::ptr::eq(element, vertex).then_some((columns, &mut *collector));
             self.rows::<false>(at, element, sink)
         });
-        end.is_ok_and(|at| self.from(at).trim_ascii().is_empty())
+        match end {
+            Ok(at) => Ok(self.from(at).trim_ascii().is_empty()),
+            Err(error) if error.problem == Problem::Cancelled => Err(error),
+            Err(_) => Ok(false),
+        }
     }
 
     /// Tells of what stands after the vertices where a glance shows that it is too short or too long.
@@ -127,7 +133,7 @@ impl Body<'_> {
         &self,
         mut at: usize,
         element: &Element,
-        mut sink: Option<(&Columns, &mut Collector)>,
+        mut sink: Option<(&Columns, &mut Collector<'_>)>,
     ) -> Result<usize, PlyError> {
         if element.properties.is_empty() {
             // Such rows would be empty lines, and empty lines are nothing.
@@ -181,13 +187,13 @@ impl Body<'_> {
             if let Some((_, collector)) = &mut sink {
                 filled += 1;
                 if filled == BLOCK {
-                    collector.take(filled);
+                    collector.take(filled)?;
                     filled = 0;
                 }
             }
         }
         if let Some((_, collector)) = sink {
-            collector.take(filled);
+            collector.take(filled)?;
         }
         Ok(at)
     }

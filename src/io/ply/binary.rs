@@ -14,7 +14,7 @@ pub(super) fn read<const BIG_ENDIAN: bool>(
     header: &Header,
     vertex: &Element,
     columns: &Columns,
-    collector: &mut Collector,
+    collector: &mut Collector<'_>,
     notes: &mut Vec<Note>,
 ) -> Result<(), PlyError> {
     let body = Body::<BIG_ENDIAN> { bytes };
@@ -63,7 +63,7 @@ impl<const BIG_ENDIAN: bool> Body<'_, BIG_ENDIAN> {
         at: usize,
         vertex: &Element,
         columns: &Columns,
-        collector: &mut Collector,
+        collector: &mut Collector<'_>,
     ) -> Result<usize, PlyError> {
         if vertex.has_lists() {
             let fit = self.from(at).len() / vertex.least_stride().max(1);
@@ -71,7 +71,7 @@ impl<const BIG_ENDIAN: bool> Body<'_, BIG_ENDIAN> {
             return self.rows_with_lists(at, vertex, Some((columns, collector)));
         }
         let rows = self.fixed_rows(at, vertex)?;
-        collect_fixed::<BIG_ENDIAN>(rows, vertex, columns, collector);
+        collect_fixed::<BIG_ENDIAN>(rows, vertex, columns, collector)?;
         Ok(at + rows.len())
     }
 
@@ -107,7 +107,7 @@ impl<const BIG_ENDIAN: bool> Body<'_, BIG_ENDIAN> {
         &self,
         mut at: usize,
         element: &Element,
-        mut sink: Option<(&Columns, &mut Collector)>,
+        mut sink: Option<(&Columns, &mut Collector<'_>)>,
     ) -> Result<usize, PlyError> {
         let mut filled = 0;
         for row in 0..element.count {
@@ -138,13 +138,13 @@ impl<const BIG_ENDIAN: bool> Body<'_, BIG_ENDIAN> {
             if let Some((_, collector)) = &mut sink {
                 filled += 1;
                 if filled == BLOCK {
-                    collector.take(filled);
+                    collector.take(filled)?;
                     filled = 0;
                 }
             }
         }
         if let Some((_, collector)) = sink {
-            collector.take(filled);
+            collector.take(filled)?;
         }
         Ok(at)
     }
@@ -156,8 +156,8 @@ fn collect_fixed<const BIG_ENDIAN: bool>(
     rows: &[u8],
     vertex: &Element,
     columns: &Columns,
-    collector: &mut Collector,
-) {
+    collector: &mut Collector<'_>,
+) -> Result<(), PlyError> {
     let stride = vertex.least_stride().max(1);
     let mut plan: Vec<(Role, Scalar, usize)> = Vec::new();
     let mut offset = 0;
@@ -187,8 +187,9 @@ fn collect_fixed<const BIG_ENDIAN: bool>(
                 Scalar::F64 => decode::<f64, 8, BIG_ENDIAN>(from, stride, out),
             }
         }
-        collector.take(block.len() / stride);
+        collector.take(block.len() / stride)?;
     }
+    Ok(())
 }
 
 /// Reads the values that start a stride apart.

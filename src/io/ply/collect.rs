@@ -4,18 +4,26 @@ use glam::{DVec3, Vec3};
 
 use super::Note;
 use super::columns::{Columns, Role};
+use super::error::{PlyError, Problem};
 use super::scalar::Scalar;
-use crate::geometry::Cloud;
+use crate::geometry::{Cloud, Watch};
 
 /// Rows that are decoded before they are sorted into the cloud: few enough for all columns of a
 /// block to stay in the fastest cache.
 pub(super) const BLOCK: usize = 128;
 
+/// Blocks between two looks at the watch: a millisecond at most.
+const LOOK: usize = 32;
+
 /// The label of a point whose label cannot be used.
 const NO_LABEL: i32 = -1;
 
 /// Takes decoded rows, a block at a time, and makes a cloud of them.
-pub(super) struct Collector {
+pub(super) struct Collector<'a> {
+    watch: &'a dyn Watch,
+    /// Blocks taken, and how many there will be if the header is right.
+    taken: usize,
+    expected: usize,
     block: Block,
     colors: Option<Colors>,
     positions: Vec<DVec3>,
@@ -38,8 +46,8 @@ impl Block {
     }
 }
 
-impl Collector {
-    pub(super) fn new(columns: &Columns) -> Self {
+impl<'a> Collector<'a> {
+    pub(super) fn new(columns: &Columns, rows: u64, watch: &'a dyn Watch) -> Self {
         let mut block = Block {
             columns: [[0.0; BLOCK]; Role::COUNT],
         };
@@ -47,7 +55,11 @@ impl Collector {
         if colors.is_some() && columns.kind(Role::Alpha).is_none() {
             *block.column(Role::Alpha) = [255.0; BLOCK];
         }
+        let rows = usize::try_from(rows).unwrap_or(usize::MAX);
         Self {
+            watch,
+            taken: 0,
+            expected: rows.div_ceil(BLOCK),
             block,
             colors,
             positions: Vec::new(),
@@ -78,9 +90,29 @@ impl Collector {
         &mut self.block
     }
 
+    /// An empty one for the same rows.
+    pub(super) fn afresh(&self, columns: &Columns) -> Self {
+        let rows = self.expected.saturating_mul(BLOCK) as u64;
+        Self::new(columns, rows, self.watch)
+    }
+
     /// Takes the first `rows` rows of the block, at most [`BLOCK`].
-    pub(super) fn take(&mut self, rows: usize) {
-        let rows = rows.min(BLOCK);
+    ///
+    /// # Errors
+    /// Now and then, [`Problem::Cancelled`] where the watch calls the work off.
+    pub(super) fn take(&mut self, rows: usize) -> Result<(), PlyError> {
+        self.taken += 1;
+        if self.taken % LOOK == 1 {
+            if self.watch.is_cancelled() {
+                return Err(PlyError::of_file(Problem::Cancelled));
+            }
+            self.watch.advanced(self.taken.min(self.expected), self.expected);
+        }
+        self.take_rows(rows.min(BLOCK));
+        Ok(())
+    }
+
+    fn take_rows(&mut self, rows: usize) {
         let of = |role: Role| &self.block.columns[role as usize][..rows];
         let three = |roles: [Role; 3]| {
             let [a, b, c] = roles.map(of);

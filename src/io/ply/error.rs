@@ -166,6 +166,9 @@ pub enum Problem {
         /// Whether the row has lists, which may add to what is expected.
         at_least: bool,
     },
+    /// Reading was called off; nothing is wrong.
+    #[error("reading was called off")]
+    Cancelled,
 }
 
 impl Problem {

@@ -23,7 +23,7 @@ pub use error::{Place, PlyError, Problem};
 pub use note::Note;
 pub use write::{Encoding, Precision, WriteError, WriteOptions, write};
 
-use crate::geometry::{Cloud, Unit};
+use crate::geometry::{Cloud, Unit, Watch};
 use collect::Collector;
 use columns::Columns;
 use header::Header;
@@ -73,11 +73,20 @@ pub struct PlyCloud {
 /// Where the bytes are no PLY file, its header is malformed or has no vertices with x, y and z, or
 /// its body is malformed or ends before the last vertex.
 pub fn read(bytes: &[u8]) -> Result<PlyCloud, PlyError> {
+    read_watched(bytes, &())
+}
+
+/// As [`read`], telling `watch` how many of the file's rows of points are read, in any unit.
+///
+/// # Errors
+/// As [`read`]; and [`Problem::Cancelled`] where the watch calls the work off, which it is asked
+/// every few thousand rows.
+pub fn read_watched(bytes: &[u8], watch: &dyn Watch) -> Result<PlyCloud, PlyError> {
     let mut header = Header::parse(bytes)?;
     let mut notes = std::mem::take(&mut header.notes);
     let vertex = header.vertex()?;
     let columns = Columns::of(vertex, &mut notes)?;
-    let mut collector = Collector::new(&columns);
+    let mut collector = Collector::new(&columns, vertex.count, watch);
     match header.encoding {
         Encoding::Ascii => ascii::read(bytes, &header, vertex, &columns, &mut collector, &mut notes)?,
         Encoding::BinaryLittleEndian => {
