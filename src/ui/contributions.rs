@@ -141,7 +141,7 @@ impl Counted {
     fn of(ui: &Ui, look: &Look, brush_cm: &RangeInclusive<f64>) -> Option<Self> {
         let detail = look.detail.as_ref()?;
         let tau_cm_per_rad = look.analysis.as_ref()?.params.tau_cm_per_rad;
-        let memory = ui.id().with("counted");
+        let memory = ui.make_persistent_id("counted");
         let known = ui.data(|data| data.get_temp::<Self>(memory)).filter(|known| {
             Arc::ptr_eq(&known.detail, detail)
                 && known.tau_cm_per_rad == tau_cm_per_rad
