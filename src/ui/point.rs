@@ -3,7 +3,7 @@
 use egui::{Button, Color32, Label, RichText, Ui};
 use glam::DVec3;
 
-use super::controls::{caution, hint};
+use super::controls::{caution, hint, small};
 use crate::app::why::{Match, NEIGHBOR_COLOR, POINT_COLOR, REFLECTION_COLOR, Steps, Why, why};
 use crate::app::{Command, State};
 use crate::evaluate::sentence;
@@ -116,7 +116,8 @@ fn title(ui: &mut Ui, number: usize, text: &str, place: &str, color: Option<Colo
                 .circle(rect.center(), 4.5, Color32::from_rgb(r, g, b), outline);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.label(RichText::new(place).small());
+            let font = small(ui);
+            ui.label(RichText::new(place).font(font));
         });
     });
 }
@@ -220,7 +221,7 @@ fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &Match) {
     title(ui, 4, "Nearest neighbor", "Fig. 6a", Some(NEIGHBOR_COLOR));
     value(
         ui,
-        "Index of used points",
+        "Index among used points",
         partner.surface_index.to_string(),
         "Its place among the points that the method uses, from 0.",
     );

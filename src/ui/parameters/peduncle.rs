@@ -149,7 +149,7 @@ fn file(ui: &mut Ui, edit: &mut Edit<'_>) -> bool {
         .filter(|(of, _)| *of == now)
         .unwrap_or_else(|| (now.clone(), now.clone()));
     let field = egui::TextEdit::singleline(&mut typed)
-        .hint_text("path of a PLY file")
+        .hint_text(egui::RichText::new("path of a PLY file").color(ui.visuals().text_color()))
         .desired_width(f32::INFINITY);
     let response = ui
         .add(field)
@@ -194,7 +194,8 @@ fn hue(ui: &mut Ui, edit: &mut Edit<'_>) {
             },
             usual: 0.0..=360.0,
             step: 1.0,
-            reset: None,
+            logarithmic: false,
+            differs: false,
         }
         .show(ui, value);
         edit.note(&response, "hue");
