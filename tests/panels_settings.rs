@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axiscope::app::{App, Command, Sample, Session, Tool};
+use axiscope::io::PeduncleChoice;
 use axiscope::method::{Aggregation, CenterMethod, NormalSource, Preset, TAU_CM_PER_RAD};
 use axiscope::ui::{contributions, files, parameters, point, warnings};
 use egui::accesskit::Role;
@@ -365,6 +366,40 @@ fn what_a_file_lacks_cannot_be_chosen() {
     click(&mut harness, "Source of the normals");
     click(&mut harness, "estimate");
     assert_eq!(last_set(harness.state()).0.normals, Some(NormalSource::Estimate));
+}
+
+#[test]
+fn the_peduncle_s_file_is_typed() {
+    let mut harness = dark(bench(Panel::Parameters, Some(Sample::Pepper)), [300.0, 900.0]);
+    click(&mut harness, "Peduncle");
+    click(&mut harness, "Where the peduncle is");
+    click(&mut harness, "a file");
+    assert!(
+        harness.state().said.is_empty(),
+        "nothing is read before it has a name"
+    );
+    harness.get_by_label("File of the peduncle").focus();
+    harness.run();
+    harness
+        .get_by_label("File of the peduncle")
+        .type_text("stalk.ply");
+    harness.run();
+    assert!(
+        harness.state().said.is_empty(),
+        "nothing is read while it is typed"
+    );
+    harness.key_press(egui::Key::Enter);
+    harness.run();
+    let file = PeduncleChoice::File(PathBuf::from("stalk.ply"));
+    assert_eq!(last_set(harness.state()).0.peduncle, file);
+    click(&mut harness, "Analyze without the peduncle");
+    assert!(last_set(harness.state()).0.without_peduncle);
+    click(&mut harness, "Reset Peduncle");
+    let (request, _) = last_set(harness.state());
+    assert_eq!(
+        (request.peduncle, request.without_peduncle),
+        (PeduncleChoice::Auto, false)
+    );
 }
 
 #[test]

@@ -338,9 +338,8 @@ impl Histogram<'_> {
             .vline(x, from..=frame.bars.bottom(), Stroke::new(1.5, ink));
         let text = format!("mean {:.3} cm", self.contributions.mean_cm);
         let galley = ui.painter().layout_no_wrap(text, font.clone(), ink);
-        let left = (x - 0.5 * galley.size().x)
-            .min(frame.bars.right() - galley.size().x)
-            .max(frame.bars.left());
+        // To the right of its line, where there is room.
+        let left = (x - 1.0).min(frame.bars.right() - galley.size().x);
         ui.painter()
             .galley(pos2(left, from - galley.size().y), galley, ink);
         if let Some(picked_cm) = self.picked_cm {

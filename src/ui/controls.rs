@@ -72,6 +72,18 @@ pub(super) fn small(ui: &Ui) -> FontId {
     FontId::new((0.88 * body.size).max(11.0), body.family)
 }
 
+/// A field for text, whose hint has as much contrast as other text.
+pub(super) fn text_field(ui: &mut Ui, typed: &mut String, hint: &'static str, name: &str) -> Response {
+    ui.scope(|ui| {
+        ui.visuals_mut().weak_text_color = Some(ui.visuals().text_color());
+        let field = egui::TextEdit::singleline(typed)
+            .hint_text(hint)
+            .desired_width(f32::INFINITY);
+        ui.add(field).accessible_name(name)
+    })
+    .inner
+}
+
 /// A small explanation over the whole width.
 pub(super) fn hint(ui: &mut Ui, text: impl Into<String>) -> Response {
     let text = RichText::new(text).font(small(ui));

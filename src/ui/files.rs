@@ -3,7 +3,7 @@
 use egui::text::LayoutJob;
 use egui::{Align, Button, Layout, RichText, ScrollArea, TextFormat, TextStyle, Ui};
 
-use super::controls::{hint, small, warning_color};
+use super::controls::{hint, small, text_field, warning_color};
 use crate::app::{Command, Entry, Sample, Source, State};
 
 /// Lists that are longer than this can be filtered.
@@ -122,10 +122,7 @@ fn filter(ui: &mut Ui, count: usize) -> String {
     let mut typed = ui
         .data(|data| data.get_temp::<String>(memory))
         .unwrap_or_default();
-    let field = egui::TextEdit::singleline(&mut typed)
-        .hint_text(RichText::new("Filter by name").color(ui.visuals().text_color()))
-        .desired_width(f32::INFINITY);
-    ui.add(field).accessible_name("Filter by name");
+    text_field(ui, &mut typed, "Filter by name", "Filter by name");
     let filter = typed.trim().to_lowercase();
     ui.data_mut(|data| data.insert_temp(memory, typed));
     filter

@@ -269,7 +269,7 @@ fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &Match) {
     let tau = partner.tau_cm_per_rad;
     hint(
         ui,
-        format!("With τ = {tau:.3} cm/rad. Without the angle (τ = 0) it would be d alone."),
+        format!("With τ = {tau:.3} cm/rad. At τ = 0 it would be d alone."),
     );
     shares(ui, partner);
     if let Some(share) = partner.share_below {
@@ -290,13 +290,23 @@ fn shares(ui: &mut Ui, partner: &Match) {
         ui.allocate_exact_size(egui::vec2(ui.available_width(), 16.0), egui::Sense::hover());
     let share = (partner.distance_cm / partner.score_cm) as f32;
     let middle = rect.left() + share * rect.width();
-    let (of_d, of_xi) = (
+    // White is read well on both.
+    let (of_d, of_angle) = (
         Color32::from_rgb(0x1f, 0x6f, 0xb0),
-        Color32::from_rgb(0xd5, 0x5e, 0x00),
+        Color32::from_rgb(0xa8, 0x49, 0x00),
     );
     let painter = ui.painter_at(rect);
-    painter.rect_filled(rect.with_max_x(middle), 0.0, of_d);
-    painter.rect_filled(rect.with_min_x(middle), 0.0, of_xi);
+    let parts = [
+        (rect.with_max_x(middle), of_d, "d"),
+        (rect.with_min_x(middle), of_angle, "τξ"),
+    ];
+    for (part, color, name) in parts {
+        painter.rect_filled(part, 0.0, color);
+        if part.width() > 20.0 {
+            let (at, font) = (part.center(), small(ui));
+            painter.text(at, egui::Align2::CENTER_CENTER, name, font, Color32::WHITE);
+        }
+    }
     response.on_hover_text(format!(
         "d is {:.0} % of S, τξ {:.0} %.",
         100.0 * share,
