@@ -347,7 +347,7 @@ fn the_center_is_given_from_where_it_is_and_moved_in_the_view() {
 
 #[test]
 fn what_a_file_lacks_cannot_be_chosen() {
-    let mut harness = dark(bench(Panel::Parameters, Some(Sample::Pepper)), [300.0, 1000.0]);
+    let mut harness = dark(bench(Panel::Parameters, Some(Sample::Pepper)), [300.0, 700.0]);
     let has_normals = {
         let walked = harness.state().app.state().walked.as_ref().expect("analyzed");
         walked.fruit.cloud().normals().is_some()
@@ -361,6 +361,9 @@ fn what_a_file_lacks_cannot_be_chosen() {
         }
     );
     click(&mut harness, "Source of the normals");
+    harness.get_by_label("file").hover();
+    harness.run();
+    harness.snapshot_options("parameters_hindered", &options());
     click(&mut harness, "file");
     assert!(harness.state().said.is_empty(), "{:?}", harness.state().said);
     click(&mut harness, "Source of the normals");
@@ -422,6 +425,13 @@ fn a_point_is_explained() {
 #[test]
 fn the_partner_is_gone_to_and_the_pick_cleared() {
     let mut bench = bench(Panel::Point, Some(Sample::Pepper));
+    // Then the shown points and the used ones are counted differently.
+    let mut request = bench.app.state().settings.request.clone();
+    request.without_peduncle = true;
+    bench.apply(Command::Set {
+        request: Box::new(request),
+        gesture: None,
+    });
     let picked = point_of(&bench, true);
     bench.apply(Command::Pick(Some(picked)));
     let (_, detail) = bench.app.state().point_detail(picked).expect("explained");

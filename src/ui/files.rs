@@ -141,7 +141,9 @@ fn row(ui: &mut Ui, state: &State, place: usize, commands: &mut Vec<Command>) {
     };
     text.append(&name, 0.0, TextFormat::simple(font, color));
     if let Some(problem) = &entry.problem {
-        text.append(problem, 8.0, TextFormat::simple(small(ui), warning_color(ui)));
+        // On the current row's ground the warning's color has too little contrast.
+        let color = if is_current { color } else { warning_color(ui) };
+        text.append(problem, 8.0, TextFormat::simple(small(ui), color));
     }
     let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
     let button = Button::selectable(is_current, text).truncate().min_size(size);
