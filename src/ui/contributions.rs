@@ -367,10 +367,10 @@ impl Histogram<'_> {
         } else {
             format!("{from:.3} to {to:.3} cm")
         };
-        let mut text = format!("{range}: {points} points");
-        if let Some(picked_cm) = self.picked_cm {
-            text += &format!("\nThe triangle marks the picked point: {picked_cm:.3} cm");
-        }
+        let picked = self.picked_cm.map_or(String::new(), |cm| {
+            format!("\nThe triangle marks the picked point: {cm:.3} cm")
+        });
+        let text = format!("{range}: {points} points{picked}");
         response.on_hover_text_at_pointer(text);
     }
 }

@@ -28,18 +28,13 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             let unit = explained.unit;
             reflection(ui, unit, steps);
             visibility(ui, steps);
-            match &steps.partner {
-                Some(partner) => neighbor(ui, unit, partner),
-                None => {
-                    title(ui, 4, "No partner", "Eq. 14", None);
-                    ui.add(
-                        Label::new(
-                            "d and ξ do not exist: the camera could not have seen a partner of this point, so \
-                             it adds nothing to the plane's score.",
-                        )
-                        .wrap(),
-                    );
-                }
+            if let Some(partner) = &steps.partner {
+                neighbor(ui, unit, partner);
+            } else {
+                title(ui, 4, "No partner", "Eq. 14", None);
+                let why = "d and ξ do not exist: the camera could not have seen a partner of this point, so \
+                           it adds nothing to the plane's score.";
+                ui.add(Label::new(why).wrap());
             }
         }
         Err(why_not) => {
