@@ -335,6 +335,7 @@ fn a_plane_chosen_elsewhere_comes_into_view_and_a_scroll_by_hand_stays() {
     harness.hover_at(pos2(300.0, 200.0));
     harness.event(egui::Event::MouseWheel {
         unit: egui::MouseWheelUnit::Point,
+        source: egui::MouseWheelSource::Unknown,
         delta: vec2(0.0, 3000.0),
         phase: egui::TouchPhase::Move,
         modifiers: egui::Modifiers::NONE,
