@@ -36,7 +36,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         WidgetInfo::labeled(Role::Image, true, label)
     });
 
-    let radius = 0.5 * room.width().min(room.height()) - 16.0;
+    let radius = 0.5 * room.width().min(room.height()) - 18.0;
     let turn = turned(ui, &response, radius);
     let view = View::new(&planes, turn, room.center(), radius.max(20.0));
     let dots = dots(&planes, &view);
@@ -222,7 +222,7 @@ struct Dot {
 
 /// A dot a plane, those without a score first and the best last, so that it lies on top.
 fn dots(planes: &Planes, view: &View) -> Vec<Dot> {
-    let most = (0.42 * view.radius * std::f32::consts::PI / planes.u() as f32).clamp(2.5, 11.0);
+    let most = (0.34 * view.radius * std::f32::consts::PI / planes.u() as f32).clamp(2.5, 10.0);
     let order = planes.in_rank_order();
     let dots = order.into_iter().rev().map(|index| {
         let facts = &planes.facts[index];
@@ -272,7 +272,7 @@ fn paint_lines(ui: &Ui, state: &State, planes: &Planes, view: &View) {
     let reference = state.reference().map(|r| (r.direction, REFERENCE_COLOR));
     let axis = chosen_axis(state, planes).map(|axis| (axis, AXIS_COLOR));
     for (direction, color) in [reference, axis].into_iter().flatten() {
-        let seen = 1.06 * view.seen(direction);
+        let seen = 1.1 * view.seen(direction);
         marks::outlined_line(ui.painter(), [view.place(-seen), view.place(seen)], color);
     }
 }
