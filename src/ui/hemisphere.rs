@@ -64,7 +64,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     paint_sphere(ui, &view);
     paint_lines(ui, state, &planes, &view);
     // Filled discs are cheap by the thousand, circles are not.
-    let gray = marks::hatch_stroke(ui).color;
+    let gray = ui.visuals().text_color().gamma_multiply(0.65);
     for dot in &dots {
         let color = dot.color.map_or(gray, |color| color.gamma_multiply(opacity));
         ui.painter().circle_filled(dot.place, dot.radius, color);

@@ -147,7 +147,7 @@ fn paint(ui: &Ui, place: Rect, mark: Mark) {
             }
         }
         Mark::Gray => {
-            painter.circle_filled(middle, 3.0, hatch_stroke(ui).color);
+            painter.circle_filled(middle, 3.0, ui.visuals().text_color().gamma_multiply(0.65));
         }
         Mark::Sizes => {
             painter.circle_filled(middle - vec2(4.0, 0.0), 2.0, ramp_color(0.45));
