@@ -38,10 +38,7 @@ impl Bench {
             if !self.app.is_busy() {
                 return;
             }
-            assert!(
-                begin.elapsed() < Duration::from_mins(2),
-                "the workers do not end"
-            );
+            assert!(begin.elapsed() < Duration::from_mins(2), "the workers do not end");
             std::thread::sleep(Duration::from_millis(2));
         }
     }
