@@ -44,10 +44,12 @@ pub(super) struct Evaluate {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum TruthOption {
-    /// The simulator's truth where there is one, else the peduncle
+    /// The simulator's truth where there is one, else the axis set by hand, else the peduncle
     Auto,
     /// The axis from the fruit center through the peduncle (§ 3.2)
     Peduncle,
+    /// The axis set by hand: the adjudicated one, else the mean of the annotators'
+    Manual,
     /// The axis in NAME.truth.json
     Truth,
 }
@@ -85,6 +87,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     let choice = match args.truth {
         TruthOption::Auto => TruthChoice::Auto,
         TruthOption::Peduncle => TruthChoice::Peduncle,
+        TruthOption::Manual => TruthChoice::Manual,
         TruthOption::Truth => TruthChoice::Truth,
     };
     let store = Store::open(&args.out, &request, choice, sweep.as_ref(), args.resume)?;
