@@ -30,6 +30,11 @@ impl History {
         self.path.len() - self.done
     }
 
+    /// Every state within reach of undo and redo, oldest first; the first [`History::undo_steps`] are done.
+    pub fn within_reach(&self) -> impl Iterator<Item = &Annotation> {
+        self.path.iter().map(|&i| &self.ever[i])
+    }
+
     /// Every state that there ever was, oldest first; those out of reach of redo as well.
     pub fn ever(&self) -> &[Annotation] {
         &self.ever

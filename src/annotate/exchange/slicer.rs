@@ -189,7 +189,7 @@ fn millimeters(unit: Unit, placement: Placement) -> f64 {
 /// The line in the cloud's file, its first point taken for the peduncle's base. `extent` is the cloud's.
 ///
 /// # Errors
-/// Where the line lies farther from the cloud than the cloud is large, or has quite another size: then
+/// Where the line lies farther from the cloud than half its size, or has quite another size: then
 /// its coordinates were read wrongly, and the error says what would fit.
 pub fn place(
     line: &SlicerLine,
@@ -204,10 +204,12 @@ pub fn place(
         Ends::new(base, blossom)
     };
     let fits = |ends: &Ends| {
-        let reach = DVec3::splat(extent.size().length());
+        let size = extent.size().length();
+        // The camera sees half of a fruit: the other half reaches about as far beyond the points.
+        let reach = DVec3::splat(0.5 * size);
         let near = |p: DVec3| p.cmpge(extent.min - reach).all() && p.cmple(extent.max + reach).all();
         // Near the origin a line in the wrong unit lies on the cloud too, but far too small.
-        let share = ends.length() / reach.x;
+        let share = ends.length() / size;
         near(ends.peduncle_base()) && near(ends.blossom_end()) && (0.2..3.0).contains(&share)
     };
     let placed = ends(placement)?;

@@ -139,7 +139,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
 }
 
 /// Every cloud in the folder, by name. A companion that holds a peduncle alone is no cloud of its own.
-fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+pub(super) fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let entries = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
     let mut clouds = Vec::new();
     for entry in entries {
