@@ -46,10 +46,15 @@ struct Fields {
     annotator: String,
     role: Role,
     cannot_tell: bool,
+    // Named so, a field may be null, but not missing.
+    #[serde(deserialize_with = "Option::deserialize")]
     peduncle_base: Option<DVec3>,
+    #[serde(deserialize_with = "Option::deserialize")]
     blossom_end: Option<DVec3>,
+    #[serde(deserialize_with = "Option::deserialize")]
     direction: Option<DVec3>,
     method: Method,
+    #[serde(deserialize_with = "Option::deserialize")]
     confidence: Option<f64>,
     note: String,
     blind: bool,
