@@ -107,6 +107,9 @@ fn blindness_and_a_known_start_are_recorded_for_good() {
         method,
         ..judgment(1.0)
     };
+    let mut seeing = open(&Disk::default());
+    seeing.edit(judgment(1.0), NOW).unwrap();
+    assert!(!seeing.current().unwrap().judgment.blind);
     store.edit(blind(Method::ByHand), "2026-03-01T12:00:00Z").unwrap();
     assert!(store.current().unwrap().judgment.blind);
     store
