@@ -101,22 +101,47 @@ fn draw(
     arguments: Vec<String>,
     expected_sha256: Option<&str>,
 ) -> anyhow::Result<Vec<u8>> {
+    let examined = examined(cloud, options, expected_sha256)?;
+    let gpu = Gpu::headless()?;
+    let drawing = Drawing {
+        named,
+        picture,
+        arguments,
+    };
+    picture_of(&examined, drawing, &gpu).with_context(|| cloud.display().to_string())
+}
+
+/// What to draw of a cloud.
+pub(super) struct Drawing<'a> {
+    /// What the settings and the caption call the cloud.
+    pub(super) named: &'a Path,
+    pub(super) picture: &'a Picture,
+    /// The command line that the picture carries.
+    pub(super) arguments: Vec<String>,
+}
+
+/// A picture of a cloud that was examined, as PNG bytes.
+pub(super) fn picture_of(examined: &Examined, drawing: Drawing<'_>, gpu: &Gpu) -> anyhow::Result<Vec<u8>> {
     let Examined {
         fruit,
         analysis,
         references,
         ..
-    } = examined(cloud, options, expected_sha256)?;
-    let looked = looked_at(&analysis, picture.plane)?;
-    let reference = reference_of(&references, picture.reference.choice()).or(references.first());
-    let shown = ShownPoints::new(fruit.cloud(), &analysis);
+    } = examined;
+    let Drawing {
+        named,
+        picture,
+        arguments,
+    } = drawing;
+    let looked = looked_at(analysis, picture.plane)?;
+    let reference = reference_of(references, picture.reference.choice()).or(references.first());
+    let shown = ShownPoints::new(fruit.cloud(), analysis);
     let subject = Subject {
         shown: &shown,
-        analysis: &analysis,
+        analysis,
         detail: looked.as_ref().map(|l| &l.detail),
     };
-    let colored =
-        color_points(subject, picture.color.coloring()).with_context(|| cloud.display().to_string())?;
+    let colored = color_points(subject, picture.color.coloring())?;
 
     let overlays = picture.overlays.clone().unwrap_or_default();
     let has = |overlay| overlays.has(overlay);
@@ -141,7 +166,7 @@ fn draw(
 
     let name = named.file_name().unwrap_or_default().to_string_lossy();
     let index = looked.as_ref().map(|l| l.index);
-    let caption = caption(&name, &analysis, index, axis, reference);
+    let caption = caption(&name, analysis, index, axis, reference);
     let both = axis
         .zip(reference)
         .filter(|_| has(Overlay::Axis) && has(Overlay::Reference));
@@ -195,7 +220,7 @@ fn draw(
         )
     };
     let camera = picture.camera.unwrap_or_else(preset_camera);
-    let mut image = draw_image(&Gpu::headless()?, &scene, &camera, width, height)?;
+    let mut image = draw_image(gpu, &scene, &camera, width, height)?;
     paint_annotations(&mut image, &annotate(&page, &camera, &text_width_px))?;
     Ok(encode_picture(
         &image,

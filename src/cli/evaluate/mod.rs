@@ -2,6 +2,8 @@
 
 mod figures;
 mod html;
+#[cfg(feature = "window")]
+mod pictures;
 mod store;
 mod sweep;
 
@@ -38,6 +40,10 @@ pub(super) struct Evaluate {
     /// Take what an earlier run into the same folder has finished, where cloud and settings are the same
     #[arg(long)]
     resume: bool,
+    /// Pictures of the worst clouds in the report
+    #[cfg(feature = "window")]
+    #[arg(long, value_name = "N", default_value_t = 12)]
+    pictures: usize,
     #[command(flatten)]
     analysis: AnalysisOptions,
 }
@@ -128,7 +134,17 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
         save(&format!("{name}.png"), &figure.png(1.0)?)?;
         drawn.push(svg);
     }
-    let page = html::report(&args.folder, &request, &rows, &summary, &drawn);
+    #[cfg(feature = "window")]
+    let pictures = {
+        let (pictures, problem) = pictures::of_worst(&args.folder, &rows, &request, args.pictures);
+        if let Some(problem) = problem {
+            eprintln!("Warning: {problem}");
+        }
+        pictures
+    };
+    #[cfg(not(feature = "window"))]
+    let pictures = Vec::new();
+    let page = html::report(&args.folder, &request, &rows, &summary, &drawn, &pictures);
     save("report.html", page.as_bytes())?;
     write_summary(&mut std::io::stdout().lock(), &summary)?;
     eprintln!(
