@@ -18,6 +18,7 @@ use axiscope::view::{
     color_points, framed_points, insets,
 };
 use clap::Args;
+use glam::DVec3;
 
 use super::options::AnalysisOptions;
 use super::picture_options::{BackgroundOption, Picture, PlaneChoice};
@@ -170,17 +171,9 @@ pub(super) fn picture_of(examined: &Examined, drawing: Drawing<'_>, gpu: &Gpu) -
     let both = axis
         .zip(reference)
         .filter(|_| has(Overlay::Axis) && has(Overlay::Reference));
-    let angle = both.map(|(axis, reference)| {
-        let text = format!("{:.1}° apart", axis_error_rad(axis, reference).to_degrees());
-        let upward = if axis.direction.y > 0.0 {
-            -axis.direction
-        } else {
-            axis.direction
-        };
-        // Where the drawn line ends: 0.62 of the fruit's size, which is twice the shading's length.
-        let reach = 1.24 * f64::from(scene.eye_dome.scale);
-        (axis.origin + reach * upward, text)
-    });
+    // Where the drawn line ends: 0.62 of the fruit's size, which is twice the shading's length.
+    let reach = 1.24 * f64::from(scene.eye_dome.scale);
+    let angle = both.map(|(axis, reference)| angle_label(axis, reference, reach));
     let [width, height] = picture.size;
     let viewport = Viewport::new(width.into(), height.into());
     let page = Page {
@@ -231,6 +224,17 @@ pub(super) fn picture_of(examined: &Examined, drawing: Drawing<'_>, gpu: &Gpu) -
             sha256: fruit.file.sha256.clone(),
         },
     )?)
+}
+
+/// The angle between two axes in words, and its place: `reach` from the axis' origin, at its upper end.
+fn angle_label(axis: &AxisEstimate, reference: &AxisEstimate, reach: f64) -> (DVec3, String) {
+    let text = format!("{:.1}° apart", axis_error_rad(axis, reference).to_degrees());
+    let upward = if axis.direction.y > 0.0 {
+        -axis.direction
+    } else {
+        axis.direction
+    };
+    (axis.origin + reach * upward, text)
 }
 
 /// The fruit, its analysis and its references; warnings go to standard error.

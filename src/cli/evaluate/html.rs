@@ -35,10 +35,6 @@ pub(super) fn report(
 }
 
 /// A picture of one of the worst clouds.
-#[cfg_attr(
-    not(feature = "window"),
-    expect(dead_code, reason = "pictures are drawn by the window's renderer")
-)]
 pub(super) struct WorstPicture {
     /// The cloud's file.
     pub(super) file: String,
