@@ -127,10 +127,12 @@ fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
     }
     let choice_of = |source: &AxisSource| match source {
         AxisSource::Simulation => TruthChoice::Truth,
+        AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated => TruthChoice::Manual,
         _ => TruthChoice::Peduncle,
     };
     let name = |source: &AxisSource| match source {
         AxisSource::Simulation => "Simulated axis",
+        AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated => "Axis by hand",
         _ => "Peduncle's axis",
     };
     let Some(current) = state.reference() else { return };

@@ -30,7 +30,8 @@ impl Way {
             PeduncleChoice::Auto => Self::Auto,
             PeduncleChoice::None => Self::None,
             PeduncleChoice::Label => Self::Label,
-            PeduncleChoice::File(_) => Self::File,
+            // There is no control yet for a folder of clouds without their peduncles.
+            PeduncleChoice::File(_) | PeduncleChoice::Removed(_) => Self::File,
             PeduncleChoice::Hue(_) => Self::Hue,
         }
     }
@@ -130,6 +131,7 @@ fn found_in_words(found: Option<&Peduncle>) -> String {
     let by = match peduncle.source {
         PeduncleSource::Label => "by the file's labels",
         PeduncleSource::Companion => "in a file of its own",
+        PeduncleSource::Removal => "by the cloud without it",
         PeduncleSource::Hue(_) => "by color",
     };
     format!("Found {by}: {} points", peduncle.points)
