@@ -6,6 +6,7 @@
 //! [`method`], and leaves as a symmetry plane and an axis that [`mod@reference`] compares with others.
 //! [`simulate`] makes clouds whose axis is known.
 
+pub mod annotate;
 pub mod app;
 pub mod evaluate;
 pub mod geometry;

@@ -147,7 +147,18 @@ fn a_bad_cloud_is_a_row_with_its_reason() {
     assert!(ran.out.contains("4, 3 with an error"), "{}", ran.out);
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("a&lt;b&gt;.ply") && !page.contains("a<b>"));
-    assert!(page.contains("<svg") && !page.contains("src="), "stands alone");
+    assert!(page.contains("<svg"));
+    let sources: Vec<&str> = page.split("src=").skip(1).collect();
+    assert!(
+        sources
+            .iter()
+            .all(|source| source.starts_with("\"data:image/png;base64,iVBORw0KGgo")),
+        "it stands alone"
+    );
+    assert!(!page.contains("href=") && !page.contains("url("));
+    if cfg!(feature = "window") {
+        assert_eq!(sources.len(), 3, "a picture of each cloud with an error");
+    }
 }
 
 #[test]

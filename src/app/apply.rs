@@ -179,7 +179,8 @@ impl App {
             return;
         }
         // Scrubbing through a hundred planes is one step back.
-        self.history.remember(self.state.settings.clone(), Some("plane"));
+        let gesture = (plane != PlaneChoice::Best).then_some("plane");
+        self.history.remember(self.state.settings.clone(), gesture);
         self.state.settings.plane = plane;
     }
 

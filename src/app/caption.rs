@@ -41,8 +41,15 @@ pub fn caption(
 /// How sure the winner is, in words; `None` where there is no winner or nothing to compare it with.
 pub fn lead_in_words(analysis: &Analysis) -> Option<String> {
     let best = analysis.best.as_ref().ok()?;
-    let (runner_up, _) = best.runner_up?;
-    let lead = best.lead()?;
+    let (runner_up, runner_up_cm) = best.runner_up?;
+    let Some(lead) = best.lead() else {
+        let (g, h) = (runner_up.g, runner_up.h);
+        return Some(if runner_up_cm <= best.score_cm {
+            format!("Ambiguous: the runner-up (g {g}, h {h}) scores the same")
+        } else {
+            format!("The best plane scores 0 and the runner-up (g {g}, h {h}) {runner_up_cm:.4} cm")
+        });
+    };
     let ambiguous = analysis
         .warnings
         .iter()

@@ -37,8 +37,10 @@ pub fn command_line(state: &State, out: &str, size_px: [u32; 2]) -> Vec<String> 
     if state.style.theme == Theme::Light {
         add("--background", "light".into());
     }
-    if state.truth == TruthChoice::Truth {
-        add("--reference", "truth".into());
+    match state.truth {
+        TruthChoice::Truth => add("--reference", "truth".into()),
+        TruthChoice::Manual => add("--reference", "manual".into()),
+        TruthChoice::Auto | TruthChoice::Peduncle => {}
     }
     if let Some(shown) = state.shown() {
         let size = super::look::point_size(&state.style, shown.len());
@@ -114,7 +116,9 @@ pub fn analysis_options(request: &Request) -> Vec<String> {
         let p = params.viewpoint;
         add("--viewpoint", format!("{},{},{}", p.x, p.y, p.z));
     }
-    if request.peduncle != PeduncleChoice::Auto {
+    if let PeduncleChoice::Removed(folder) = &request.peduncle {
+        add("--removed", folder.display().to_string());
+    } else if request.peduncle != PeduncleChoice::Auto {
         add("--peduncle", request.peduncle.to_string());
     }
     if let Some(outliers) = params.filters.outliers {

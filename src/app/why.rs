@@ -207,27 +207,24 @@ pub fn why_lines(why: &Why, size: f64, theme: Theme) -> Vec<Line> {
             2.4,
         ),
     ];
-    match &steps.partner {
-        Some(partner) => {
-            let at = partner.position;
-            lines.extend([
-                line(reflection, at, theme.ink(), 2.8),
-                line(
-                    at,
-                    at + normal_length * steps.reflected_normal,
-                    REFLECTION_COLOR,
-                    1.6,
-                )
-                .dashed(),
-                line(at, at + normal_length * partner.normal, NEIGHBOR_COLOR, 2.4),
-                disc(at, NEIGHBOR_COLOR, 10.0),
-            ]);
-        }
-        None => {
-            let toward = (steps.viewpoint - reflection).normalize_or_zero();
-            let to = reflection + 2.0 * normal_length * toward;
-            lines.push(line(reflection, to, theme.quiet_ink(), 1.6).dashed());
-        }
+    if let Some(partner) = &steps.partner {
+        let at = partner.position;
+        lines.extend([
+            line(reflection, at, theme.ink(), 2.8),
+            line(
+                at,
+                at + normal_length * steps.reflected_normal,
+                REFLECTION_COLOR,
+                1.6,
+            )
+            .dashed(),
+            line(at, at + normal_length * partner.normal, NEIGHBOR_COLOR, 2.4),
+            disc(at, NEIGHBOR_COLOR, 10.0),
+        ]);
+    } else {
+        let toward = (steps.viewpoint - reflection).normalize_or_zero();
+        let to = reflection + 2.0 * normal_length * toward;
+        lines.push(line(reflection, to, theme.quiet_ink(), 1.6).dashed());
     }
     lines.extend([
         disc(foot, theme.quiet_ink(), 5.0),

@@ -135,6 +135,7 @@ fn write_text(
             let how = match peduncle.source {
                 PeduncleSource::Label => "labels",
                 PeduncleSource::Companion => "a file of its own",
+                PeduncleSource::Removal => "the cloud without it",
                 PeduncleSource::Hue(_) => "color",
             };
             let count = peduncle.points;

@@ -1,6 +1,8 @@
 //! The command line: one file a subcommand.
 
 mod analyze;
+mod annotate;
+mod annotations;
 mod evaluate;
 mod options;
 #[cfg(feature = "window")]
@@ -50,6 +52,10 @@ enum Command {
     Simulate(simulate::Simulate),
     /// Compare a folder of clouds with their references: a table, figures, the worst first
     Evaluate(Box<evaluate::Evaluate>),
+    /// Set the true axis of one cloud by hand
+    Annotate(Box<annotate::Annotate>),
+    /// List a folder's axes set by hand, and how far the annotators agree
+    Annotations(annotations::Annotations),
     /// Run the paper's experiments and set them beside the paper's figures
     Reproduce(reproduce::Reproduce),
     /// Print a completion script for a shell
@@ -97,6 +103,8 @@ fn run(cli: Cli) -> anyhow::Result<()> {
         Command::Render(render) => render::run(&render, std::env::args_os(), parse_render),
         Command::Simulate(simulate) => simulate::run(&simulate),
         Command::Evaluate(evaluate) => evaluate::run(&evaluate),
+        Command::Annotate(annotate) => annotate::run(&annotate),
+        Command::Annotations(annotations) => annotations::run(&annotations),
         Command::Reproduce(reproduce) => reproduce::run(&reproduce),
         Command::Completions { shell } => {
             let mut script = Vec::new();
@@ -164,6 +172,12 @@ fn use_threads(threads: usize) -> anyhow::Result<()> {
         "this build runs on one thread: it lacks the feature `parallel`"
     );
     Ok(())
+}
+
+/// The time, to the second, for what is written into annotations.
+fn now() -> String {
+    let since_1970 = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+    axiscope::annotate::rfc3339(since_1970.map_or(0, |since| since.as_secs()))
 }
 
 /// An error of whoever typed the command line, found only after it was parsed.

@@ -61,6 +61,9 @@ pub(super) struct AnalysisOptions {
     /// Where the peduncle is: auto, none, label, a PLY file, or hue=LO..HI in degrees
     #[arg(long, value_name = "WHERE", default_value = "auto", value_parser = peduncle_choice)]
     pub(super) peduncle: PeduncleChoice,
+    /// A folder with the same clouds without their peduncles, under the same names: the peduncle is what is missing there
+    #[arg(long, value_name = "DIR", conflicts_with = "peduncle")]
+    pub(super) removed: Option<PathBuf>,
     /// Leave the peduncle's points out of the analysis
     #[arg(long)]
     pub(super) without_peduncle: bool,
@@ -152,7 +155,10 @@ impl AnalysisOptions {
     pub(super) fn request(&self) -> Request {
         Request {
             unit: self.unit.unit(),
-            peduncle: self.peduncle.clone(),
+            peduncle: match &self.removed {
+                Some(folder) => PeduncleChoice::Removed(folder.clone()),
+                None => self.peduncle.clone(),
+            },
             without_peduncle: self.without_peduncle,
             normals: match self.normals {
                 NormalsOption::Estimate => Some(NormalSource::Estimate),

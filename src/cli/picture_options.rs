@@ -122,6 +122,8 @@ pub(super) enum ReferenceOption {
     Peduncle,
     /// The simulator's, else the first there is
     Truth,
+    /// The one set by hand: the adjudicated one, else the annotators' mean, else the first there is
+    Manual,
 }
 
 impl ReferenceOption {
@@ -129,6 +131,7 @@ impl ReferenceOption {
         match self {
             Self::Peduncle => TruthChoice::Peduncle,
             Self::Truth => TruthChoice::Truth,
+            Self::Manual => TruthChoice::Manual,
         }
     }
 }

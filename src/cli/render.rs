@@ -18,6 +18,7 @@ use axiscope::view::{
     color_points, framed_points, insets,
 };
 use clap::Args;
+use glam::DVec3;
 
 use super::options::AnalysisOptions;
 use super::picture_options::{BackgroundOption, Picture, PlaneChoice};
@@ -101,22 +102,47 @@ fn draw(
     arguments: Vec<String>,
     expected_sha256: Option<&str>,
 ) -> anyhow::Result<Vec<u8>> {
+    let examined = examined(cloud, options, expected_sha256)?;
+    let gpu = Gpu::headless()?;
+    let drawing = Drawing {
+        named,
+        picture,
+        arguments,
+    };
+    picture_of(&examined, drawing, &gpu).with_context(|| cloud.display().to_string())
+}
+
+/// What to draw of a cloud.
+pub(super) struct Drawing<'a> {
+    /// What the settings and the caption call the cloud.
+    pub(super) named: &'a Path,
+    pub(super) picture: &'a Picture,
+    /// The command line that the picture carries.
+    pub(super) arguments: Vec<String>,
+}
+
+/// A picture of a cloud that was examined, as PNG bytes.
+pub(super) fn picture_of(examined: &Examined, drawing: Drawing<'_>, gpu: &Gpu) -> anyhow::Result<Vec<u8>> {
     let Examined {
         fruit,
         analysis,
         references,
         ..
-    } = examined(cloud, options, expected_sha256)?;
-    let looked = looked_at(&analysis, picture.plane)?;
-    let reference = reference_of(&references, picture.reference.choice()).or(references.first());
-    let shown = ShownPoints::new(fruit.cloud(), &analysis);
+    } = examined;
+    let Drawing {
+        named,
+        picture,
+        arguments,
+    } = drawing;
+    let looked = looked_at(analysis, picture.plane)?;
+    let reference = reference_of(references, picture.reference.choice()).or(references.first());
+    let shown = ShownPoints::new(fruit.cloud(), analysis);
     let subject = Subject {
         shown: &shown,
-        analysis: &analysis,
+        analysis,
         detail: looked.as_ref().map(|l| &l.detail),
     };
-    let colored =
-        color_points(subject, picture.color.coloring()).with_context(|| cloud.display().to_string())?;
+    let colored = color_points(subject, picture.color.coloring())?;
 
     let overlays = picture.overlays.clone().unwrap_or_default();
     let has = |overlay| overlays.has(overlay);
@@ -141,21 +167,13 @@ fn draw(
 
     let name = named.file_name().unwrap_or_default().to_string_lossy();
     let index = looked.as_ref().map(|l| l.index);
-    let caption = caption(&name, &analysis, index, axis, reference);
+    let caption = caption(&name, analysis, index, axis, reference);
     let both = axis
         .zip(reference)
         .filter(|_| has(Overlay::Axis) && has(Overlay::Reference));
-    let angle = both.map(|(axis, reference)| {
-        let text = format!("{:.1}° apart", axis_error_rad(axis, reference).to_degrees());
-        let upward = if axis.direction.y > 0.0 {
-            -axis.direction
-        } else {
-            axis.direction
-        };
-        // Where the drawn line ends: 0.62 of the fruit's size, which is twice the shading's length.
-        let reach = 1.24 * f64::from(scene.eye_dome.scale);
-        (axis.origin + reach * upward, text)
-    });
+    // Where the drawn line ends: 0.62 of the fruit's size, which is twice the shading's length.
+    let reach = 1.24 * f64::from(scene.eye_dome.scale);
+    let angle = both.map(|(axis, reference)| angle_label(axis, reference, reach));
     let [width, height] = picture.size;
     let viewport = Viewport::new(width.into(), height.into());
     let page = Page {
@@ -195,7 +213,7 @@ fn draw(
         )
     };
     let camera = picture.camera.unwrap_or_else(preset_camera);
-    let mut image = draw_image(&Gpu::headless()?, &scene, &camera, width, height)?;
+    let mut image = draw_image(gpu, &scene, &camera, width, height)?;
     paint_annotations(&mut image, &annotate(&page, &camera, &text_width_px))?;
     Ok(encode_picture(
         &image,
@@ -206,6 +224,17 @@ fn draw(
             sha256: fruit.file.sha256.clone(),
         },
     )?)
+}
+
+/// The angle between two axes in words, and its place: `reach` from the axis' origin, at its upper end.
+fn angle_label(axis: &AxisEstimate, reference: &AxisEstimate, reach: f64) -> (DVec3, String) {
+    let text = format!("{:.1}° apart", axis_error_rad(axis, reference).to_degrees());
+    let upward = if axis.direction.y > 0.0 {
+        -axis.direction
+    } else {
+        axis.direction
+    };
+    (axis.origin + reach * upward, text)
 }
 
 /// The fruit, its analysis and its references; warnings go to standard error.

@@ -1,5 +1,6 @@
 //! One cloud, analyzed and compared with every reference that is known of it.
 
+use crate::annotate::{Role, estimates};
 use crate::geometry::{Cloud, Unit};
 use crate::io::{Fruit, PeduncleChoice};
 use crate::method::{
@@ -40,10 +41,13 @@ impl Request {
 /// Which reference an error is measured against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum TruthChoice {
-    /// The simulator's truth where there is one, else the peduncle's.
+    /// The simulator's truth where there is one, else the annotators', else the peduncle's.
     Auto,
     /// The peduncle's axis (§ 3.2).
     Peduncle,
+    /// The axis that was set by hand: the adjudicated one where there is one, else the mean of the
+    /// annotators'.
+    Manual,
     /// The axis in `NAME.truth.json`.
     Truth,
 }
@@ -106,16 +110,35 @@ pub fn compared(fruit: &Fruit, request: &Request, analysis: &Analysis) -> (Vec<A
             confidence: None,
         });
     }
+    let by_hand = estimates(&fruit.annotations);
+    let decided = fruit.annotations.iter().find(|a| a.role == Role::Adjudicator);
+    let has_mean = by_hand
+        .iter()
+        .any(|a| matches!(a.source, AxisSource::Annotators(_)));
+    if decided.is_some_and(|a| a.ends().is_none()) {
+        warnings.push("It was decided by hand that this cloud's axis cannot be told.".into());
+    } else if !by_hand.is_empty() && !has_mean && decided.is_none() {
+        warnings.push("The axes set by hand contradict one another: they have no mean.".into());
+    }
+    references.extend(by_hand);
     (references, warnings)
 }
 
 /// The reference that `choice` asks for, if it is there.
 pub fn reference_of(references: &[AxisEstimate], choice: TruthChoice) -> Option<&AxisEstimate> {
     let of = |source: AxisSource| references.iter().find(|axis| axis.source == source);
+    let mean = || {
+        let is_mean = |axis: &&AxisEstimate| matches!(axis.source, AxisSource::Annotators(_));
+        references.iter().find(is_mean)
+    };
+    let manual = || of(AxisSource::Adjudicated).or_else(mean);
     match choice {
+        TruthChoice::Manual => manual(),
         TruthChoice::Peduncle => of(AxisSource::Peduncle),
         TruthChoice::Truth => of(AxisSource::Simulation),
-        TruthChoice::Auto => of(AxisSource::Simulation).or_else(|| of(AxisSource::Peduncle)),
+        TruthChoice::Auto => of(AxisSource::Simulation)
+            .or_else(manual)
+            .or_else(|| of(AxisSource::Peduncle)),
     }
 }
 

@@ -7,6 +7,7 @@
 mod examine;
 mod report;
 mod row;
+mod start;
 mod summary;
 mod sweep;
 mod table;
@@ -14,6 +15,7 @@ mod table;
 pub use examine::{Examined, Request, TruthChoice, compared, examine, reference_of, sentence};
 pub use report::{AnalysisReport, SCHEMA, Timings};
 pub use row::Row;
+pub use start::{StartError, start_axis};
 pub use summary::Summary;
 pub use sweep::{Sweep, SweepError, SweepSettings, sweep_cloud};
 pub use table::{TableError, csv, parquet};

@@ -110,7 +110,7 @@ struct AxisReport {
 
 #[derive(Debug, Clone, Serialize)]
 struct ReferenceReport {
-    kind: &'static str,
+    kind: String,
     direction: [f64; 3],
     error_deg: Option<f64>,
 }
@@ -168,7 +168,7 @@ impl AnalysisReport {
                 direction: axis.direction.to_array(),
             }),
             reference: reference.map(|reference| ReferenceReport {
-                kind: reference.source.name(),
+                kind: reference.source.name().into_owned(),
                 direction: reference.direction.to_array(),
                 error_deg: analysis
                     .axis

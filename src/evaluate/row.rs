@@ -113,7 +113,7 @@ impl Row {
             lead: best.and_then(|b| b.lead()),
             partner_fraction: partners.map(|p| p as f64 / used as f64),
             axis: axis.map(|a| a.direction.to_array()),
-            truth: truth.map(|t| t.source.name().into()),
+            truth: truth.map(|t| t.source.name().into_owned()),
             truth_axis: truth.map(|t| t.direction.to_array()),
             error_deg: truth.and_then(error_to),
             peduncle_error_deg: error_to_source(AxisSource::Peduncle),

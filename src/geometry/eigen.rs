@@ -8,7 +8,7 @@ const ROUNDS: usize = 16;
 
 /// The eigenvalues of the symmetric matrix `[xx, xy, xz, yy, yz, zz]`, smallest first, with unit
 /// eigenvectors at right angles in the same order.
-pub(super) fn symmetric_eigen([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> ([f64; 3], [DVec3; 3]) {
+pub(crate) fn symmetric_eigen([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> ([f64; 3], [DVec3; 3]) {
     let mut a = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
     let mut axes = [DVec3::X, DVec3::Y, DVec3::Z];
     for _ in 0..ROUNDS {

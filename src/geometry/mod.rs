@@ -16,6 +16,8 @@ mod spread;
 mod unit;
 mod watch;
 
+pub(crate) use eigen::symmetric_eigen;
+
 pub use cloud::{Cloud, LengthMismatch};
 pub use extent::Extent;
 pub use filters::{statistical_inliers, voxel_grid};

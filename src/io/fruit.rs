@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{CloudFile, ReadError, read_cloud, read_cloud_watched, unit_guess};
+use super::{CloudFile, ReadError, read_annotations, read_cloud, read_cloud_watched, unit_guess};
+use crate::annotate::Annotation;
 use crate::geometry::{Cloud, Unit, Watch};
 use crate::reference::{HueRange, Peduncle, PeduncleError};
 use crate::simulate::Truth;
@@ -20,6 +21,8 @@ pub enum PeduncleChoice {
     Label,
     /// A file of its own.
     File(PathBuf),
+    /// A folder with the same cloud, under the same name, from which the peduncle was removed.
+    Removed(PathBuf),
     /// The points of a color.
     Hue(HueRange),
 }
@@ -35,6 +38,8 @@ pub struct Fruit {
     pub peduncle: Option<Peduncle>,
     /// The simulator's truth about it, where `NAME.truth.json` lies beside the cloud; in the cloud's unit.
     pub truth: Option<Truth>,
+    /// What annotators say of its axis, in `NAME.ANNOTATOR.axis.json` beside the cloud.
+    pub annotations: Vec<Annotation>,
     /// What the reader ought to know about the file, one sentence each.
     pub warnings: Vec<String>,
 }
@@ -116,11 +121,14 @@ impl Fruit {
                 None
             }
         };
+        let (annotations, unusable) = read_annotations(path, &file.sha256);
+        warnings.extend(unusable);
         Ok(Self {
             file,
             unit,
             peduncle,
             truth,
+            annotations,
             warnings,
         })
     }
@@ -159,6 +167,11 @@ pub fn companion_path(path: &Path) -> PathBuf {
 /// Where the simulator writes what it knows of a cloud: `NAME.truth.json` beside `NAME.ply`.
 pub fn truth_path(path: &Path) -> PathBuf {
     path.with_extension("truth.json")
+}
+
+/// Where the cloud without its peduncle lies: the file of the same name in another folder.
+pub fn removed_path(path: &Path, folder: &Path) -> PathBuf {
+    folder.join(path.file_name().unwrap_or_default())
 }
 
 /// A truth file's content; `None` where there is no file, and a sentence where it cannot be used.
@@ -209,6 +222,13 @@ fn find_peduncle(
         PeduncleChoice::Label => asked(Peduncle::by_label(cloud)),
         PeduncleChoice::Hue(range) => asked(Peduncle::by_hue(cloud, *range)),
         PeduncleChoice::File(companion) => by_file(companion).map(Some),
+        PeduncleChoice::Removed(folder) => {
+            let body = removed_path(path, folder);
+            match Peduncle::by_removal(cloud, &read_cloud(&body)?.ply.cloud) {
+                Ok(peduncle) => Ok(Some(peduncle)),
+                Err(error) => Err(FruitError::Peduncle { path: body, error }),
+            }
+        }
         PeduncleChoice::Auto => {
             if let Ok(peduncle) = Peduncle::by_label(cloud) {
                 return Ok(Some(peduncle));
@@ -230,6 +250,7 @@ impl std::fmt::Display for PeduncleChoice {
             Self::None => f.write_str("none"),
             Self::Label => f.write_str("label"),
             Self::File(path) => write!(f, "{}", path.display()),
+            Self::Removed(folder) => write!(f, "removed={}", folder.display()),
             Self::Hue(range) => write!(f, "hue={}..{}", range.from_deg, range.to_deg),
         }
     }

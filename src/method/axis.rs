@@ -1,5 +1,7 @@
 //! The symmetry axis (Eq. 16), and axes from wherever they come.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 /// Why Eq. 16 gives no axis.
@@ -46,15 +48,24 @@ pub enum AxisSource {
     Peduncle,
     /// The simulator that made the cloud.
     Simulation,
+    /// Somebody, by hand.
+    Annotator(String),
+    /// The mean of so many annotators' axes.
+    Annotators(usize),
+    /// Whoever decided between the annotators.
+    Adjudicated,
 }
 
 impl AxisSource {
-    /// The name that reports use.
-    pub fn name(&self) -> &'static str {
+    /// The name that reports use; `annotator:NAME` for one annotator, `annotators:3` for the mean of 3.
+    pub fn name(&self) -> Cow<'static, str> {
         match self {
-            Self::SymmetryPlane => "symmetry-plane",
-            Self::Peduncle => "peduncle",
-            Self::Simulation => "simulation",
+            Self::SymmetryPlane => "symmetry-plane".into(),
+            Self::Peduncle => "peduncle".into(),
+            Self::Simulation => "simulation".into(),
+            Self::Annotator(name) => format!("annotator:{name}").into(),
+            Self::Annotators(count) => format!("annotators:{count}").into(),
+            Self::Adjudicated => "adjudicated".into(),
         }
     }
 }

@@ -33,6 +33,8 @@ pub enum PeduncleSource {
     Label,
     /// By a file of its own.
     Companion,
+    /// By the same cloud without it.
+    Removal,
     /// By color.
     Hue(HueRange),
 }
@@ -58,6 +60,27 @@ pub enum PeduncleError {
     /// The companion has no points.
     #[error("the peduncle's file has no points")]
     EmptyCompanion,
+    /// The cloud without its peduncle has no points.
+    #[error("the cloud without its peduncle has no points")]
+    EmptyBody,
+    /// The cloud without its peduncle has every point of the cloud.
+    #[error("no point of the cloud is missing in the cloud without its peduncle")]
+    NoneRemoved,
+    /// The cloud without its peduncle is another cloud.
+    #[error(
+        "it is not the same cloud without its peduncle: {missing} of {points} points are missing there, and \
+         {strange} of its own {body} are not in the cloud"
+    )]
+    OtherBody {
+        /// The cloud's points that are not in the other.
+        missing: usize,
+        /// The cloud's points.
+        points: usize,
+        /// The other's points that are not in the cloud.
+        strange: usize,
+        /// The other's points.
+        body: usize,
+    },
     /// The reference axis has no direction.
     #[error("the mean of the peduncle's points is the fruit center: they give no axis")]
     AtCenter,
@@ -138,6 +161,36 @@ impl Peduncle {
             points: points.len(),
             in_cloud: belongs.filter(|(_, p)| coincides(p)).map(|(i, _)| i).collect(),
         })
+    }
+
+    /// The points that are missing in `body`, the same cloud without its peduncle (§ 2.1), in the same unit
+    /// and frame. A point is missing where none of the body's coincides with it, to a ten-thousandth of the
+    /// cloud's size.
+    ///
+    /// # Errors
+    /// Where none is missing, or where half of either cloud's points or more are not in the other: then
+    /// these are two clouds, or one of them was filtered anew.
+    pub fn by_removal(cloud: &Cloud, body: &Cloud) -> Result<Self, PeduncleError> {
+        let size = Extent::robust(cloud.positions()).map_or(0.0, |e| e.size().length());
+        let near = (1e-4 * size).powi(2);
+        let kept = Neighbors::new(body.positions()).ok_or(PeduncleError::EmptyBody)?;
+        let is_missing = |p: DVec3| kept.nearest(p).distance_squared > near;
+        let removed = Self::of_points(cloud, PeduncleSource::Removal, |i| {
+            is_missing(cloud.positions()[i])
+        })
+        .ok_or(PeduncleError::NoneRemoved)?;
+        let all = Neighbors::new(cloud.positions()).ok_or(PeduncleError::NoneRemoved)?;
+        let is_strange = |p: &&DVec3| all.nearest(**p).distance_squared > near;
+        let strange = body.positions().iter().filter(is_strange).count();
+        if 2 * removed.points >= cloud.len() || 2 * strange >= body.len() {
+            return Err(PeduncleError::OtherBody {
+                missing: removed.points,
+                points: cloud.len(),
+                strange,
+                body: body.len(),
+            });
+        }
+        Ok(removed)
     }
 
     fn of_points(cloud: &Cloud, source: PeduncleSource, is_peduncle: impl Fn(usize) -> bool) -> Option<Self> {

@@ -16,8 +16,10 @@ pub enum WindowAct {
     OpenFiles,
     /// Ask for a folder and open what is in it.
     OpenFolder,
-    /// Ask for a name and save the view.
+    /// Ask how large a picture of the view is to be.
     SaveImage,
+    /// Ask where it is to be saved, and save it with so many pixels.
+    SaveImageOf([u32; 2]),
     /// Put the equivalent command line on the clipboard.
     CopyCommandLine,
     /// Show the keys.
@@ -150,8 +152,24 @@ impl Action {
 
     /// The keys in words.
     pub fn keys_text(&self, ctx: &egui::Context) -> String {
-        let texts: Vec<String> = self.keys.iter().map(|k| ctx.format_shortcut(k)).collect();
+        let texts: Vec<String> = self.keys.iter().map(|k| key_text(ctx, k)).collect();
         texts.join(" or ")
+    }
+}
+
+/// A key as it stands on the keyboard.
+pub fn key_text(ctx: &egui::Context, key: &KeyboardShortcut) -> String {
+    let text = ctx.format_shortcut(key);
+    let name = key.logical_key.name();
+    match key.logical_key {
+        Key::OpenBracket => text.replace(name, "["),
+        Key::CloseBracket => text.replace(name, "]"),
+        Key::Questionmark => text.replace(name, "?"),
+        Key::Period => text.replace(name, "."),
+        Key::Plus => text.replace(name, "+"),
+        Key::Equals => text.replace(name, "="),
+        Key::Minus => text.replace(name, "-"),
+        _ => text,
     }
 }
 
@@ -316,7 +334,7 @@ fn view_actions(state: &State) -> Vec<Action> {
         Projection::Orthographic
     };
     vec![
-        Action::app(View, "Show everything", Command::Frame)
+        Action::app(View, "Fit everything into the view", Command::Frame)
             .key(NONE, Key::F)
             .when(has),
         view("From the camera", ViewPreset::Camera, Key::Num1),

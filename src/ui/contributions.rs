@@ -4,11 +4,11 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use egui::{
-    Align2, Color32, FontId, Key, Rect, Response, Sense, Stroke, TextStyle, Ui, WidgetInfo, accesskit::Role,
+    Align2, Color32, FontId, Key, Rect, Response, RichText, Sense, Stroke, Ui, WidgetInfo, accesskit::Role,
     pos2, vec2,
 };
 
-use super::controls::hint;
+use super::controls::{hint, small};
 use crate::app::look::{Contributions, Look};
 use crate::app::why::why;
 use crate::app::{Command, State};
@@ -35,14 +35,14 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         .zip(look.plane_index)
         .map(|(analysis, index)| {
             let candidate = analysis.planes.grid.candidate(index);
-            format!(" of plane g {}, h {}", candidate.g, candidate.h)
+            format!("Plane g {}, h {}: what its", candidate.g, candidate.h)
         });
     hint(
         ui,
         format!(
-            "{} points with a partner{}: what each adds to the score, S = d + τξ (Eq. 15)",
+            "{} {} points with a partner add to the score, S = d + τξ (Eq. 15)",
+            plane.as_deref().unwrap_or("What the"),
             grouped(points),
-            plane.unwrap_or_default()
         ),
     );
     let picked_cm = state
@@ -93,12 +93,14 @@ fn brushed(ui: &mut Ui, look: &Look, brush_cm: &RangeInclusive<f64>, commands: &
         format!("{:.3} cm and above", brush_cm.start())
     };
     ui.horizontal_wrapped(|ui| {
-        ui.label(format!(
+        let text = format!(
             "{range}: {} points, {:.0} % of the points and {:.0} % of the sum",
             grouped(counted.points),
             100.0 * counted.points as f64 / counted.all_points.max(1) as f64,
             100.0 * counted.share_of_sum
-        ));
+        );
+        let font = small(ui);
+        ui.label(RichText::new(text).font(font));
         if ui
             .small_button("Clear")
             .on_hover_text("Shows all points again. Escape does too.")
@@ -141,7 +143,7 @@ impl Counted {
     fn of(ui: &Ui, look: &Look, brush_cm: &RangeInclusive<f64>) -> Option<Self> {
         let detail = look.detail.as_ref()?;
         let tau_cm_per_rad = look.analysis.as_ref()?.params.tau_cm_per_rad;
-        let memory = ui.id().with("counted");
+        let memory = ui.make_persistent_id("counted");
         let known = ui.data(|data| data.get_temp::<Self>(memory)).filter(|known| {
             Arc::ptr_eq(&known.detail, detail)
                 && known.tau_cm_per_rad == tau_cm_per_rad
@@ -213,7 +215,7 @@ impl Histogram<'_> {
                 "Histogram of the contributions S in centimeters",
             )
         });
-        let small = TextStyle::Small.resolve(ui.style());
+        let small = small(ui);
         let most_points = self.contributions.counts.iter().copied().max().unwrap_or(0);
         let widest = ui
             .painter()
@@ -320,9 +322,10 @@ impl Histogram<'_> {
         let (from, _) = self.span(last);
         let x = 0.5 * (frame.x(from) + frame.bars.right());
         let top = frame.y(self.contributions.counts[last] as f64) - 3.0;
-        let text = format!("up to {:.2}", self.contributions.most_cm);
+        let text = format!("and above, to {:.2} cm", self.contributions.most_cm);
         let galley = ui.painter().layout_no_wrap(text, font.clone(), color);
-        let place = pos2(frame.bars.right() - galley.size().x, top - galley.size().y - 6.0);
+        let above = (top - galley.size().y - 6.0).max(frame.bars.top());
+        let place = pos2(frame.bars.right() - galley.size().x, above);
         ui.painter().galley(place, galley, color);
         ui.painter().vline(x, (top - 6.0)..=top, Stroke::new(1.0, color));
     }
@@ -335,9 +338,8 @@ impl Histogram<'_> {
             .vline(x, from..=frame.bars.bottom(), Stroke::new(1.5, ink));
         let text = format!("mean {:.3} cm", self.contributions.mean_cm);
         let galley = ui.painter().layout_no_wrap(text, font.clone(), ink);
-        let left = (x - 0.5 * galley.size().x)
-            .min(frame.bars.right() - galley.size().x)
-            .max(frame.bars.left());
+        // To the right of its line, where there is room.
+        let left = (x - 1.0).min(frame.bars.right() - galley.size().x);
         ui.painter()
             .galley(pos2(left, from - galley.size().y), galley, ink);
         if let Some(picked_cm) = self.picked_cm {
@@ -365,10 +367,10 @@ impl Histogram<'_> {
         } else {
             format!("{from:.3} to {to:.3} cm")
         };
-        let mut text = format!("{range}: {points} points");
-        if let Some(picked_cm) = self.picked_cm {
-            text += &format!("\nThe triangle marks the picked point: {picked_cm:.3} cm");
-        }
+        let picked = self.picked_cm.map_or(String::new(), |cm| {
+            format!("\nThe triangle marks the picked point: {cm:.3} cm")
+        });
+        let text = format!("{range}: {points} points{picked}");
         response.on_hover_text_at_pointer(text);
     }
 }

@@ -4,15 +4,15 @@ use std::ops::RangeInclusive;
 
 use egui::collapsing_header::{CollapsingState, paint_default_icon};
 use egui::{
-    Align, Color32, DragValue, Label, Layout, Response, RichText, Sense, Slider, SliderClamping, TextStyle,
-    Ui, WidgetInfo, accesskit::Role, vec2,
+    Align, Color32, DragValue, FontId, Label, Layout, Response, RichText, Sense, Slider, SliderClamping,
+    TextStyle, Ui, WidgetInfo, accesskit::Role, vec2,
 };
 
 use crate::app::Command;
 use crate::evaluate::Request;
 
 /// The width of the labels of one-line rows, in logical pixels.
-const LABEL_WIDTH: f32 = 104.0;
+const LABEL_WIDTH: f32 = 92.0;
 /// The width of a field for one number.
 const FIELD_WIDTH: f32 = 78.0;
 
@@ -66,14 +66,33 @@ pub(super) fn warning_color(ui: &Ui) -> Color32 {
     }
 }
 
+/// The letters of explanations: smaller than the rest, and still read without effort.
+pub(super) fn small(ui: &Ui) -> FontId {
+    let body = TextStyle::Body.resolve(ui.style());
+    FontId::new((0.88 * body.size).max(11.0), body.family)
+}
+
+/// A field for text, whose hint has as much contrast as other text.
+pub(super) fn text_field(ui: &mut Ui, typed: &mut String, hint: &'static str, name: &str) -> Response {
+    ui.scope(|ui| {
+        ui.visuals_mut().weak_text_color = Some(ui.visuals().text_color());
+        let field = egui::TextEdit::singleline(typed)
+            .hint_text(hint)
+            .desired_width(f32::INFINITY);
+        ui.add(field).accessible_name(name)
+    })
+    .inner
+}
+
 /// A small explanation over the whole width.
 pub(super) fn hint(ui: &mut Ui, text: impl Into<String>) -> Response {
-    ui.add(Label::new(RichText::new(text).small()).wrap())
+    let text = RichText::new(text).font(small(ui));
+    ui.add(Label::new(text).wrap())
 }
 
 /// A small warning over the whole width.
 pub(super) fn caution(ui: &mut Ui, text: impl Into<String>) -> Response {
-    let text = RichText::new(text).small().color(warning_color(ui));
+    let text = RichText::new(text).font(small(ui)).color(warning_color(ui));
     ui.add(Label::new(text).wrap())
 }
 
@@ -90,12 +109,12 @@ pub(super) fn section(
     let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, is_open);
     ui.add_space(2.0);
     let mut is_reset = false;
-    ui.horizontal(|ui| {
-        let reserved = if differs { 48.0 } else { 0.0 };
-        let size = vec2(
-            (ui.available_width() - reserved).max(60.0),
-            ui.spacing().interact_size.y,
-        );
+    let row = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(row, Layout::right_to_left(Align::Center), |ui| {
+        if differs {
+            is_reset = reset(ui, title);
+        }
+        let size = vec2(ui.available_width(), row.y);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
         if response.clicked() {
             state.toggle(ui);
@@ -123,9 +142,6 @@ pub(super) fn section(
             TextStyle::Button.resolve(ui.style()),
             ui.visuals().strong_text_color(),
         );
-        if differs {
-            is_reset = reset(ui, title);
-        }
     });
     state.show_body_unindented(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 4.0;
@@ -143,7 +159,8 @@ pub(super) fn section(
 
 /// A small link that puts `what` back; says whether it was clicked.
 pub(super) fn reset(ui: &mut Ui, what: &str) -> bool {
-    ui.link(RichText::new("reset").small())
+    let text = RichText::new("reset").font(small(ui));
+    ui.link(text)
         .on_hover_text(format!("{what}: back to the default"))
         .accessible_name(format!("Reset {what}"))
         .clicked()
@@ -230,8 +247,10 @@ pub(super) struct Slid<'a> {
     pub(super) usual: RangeInclusive<f64>,
     /// The slider's steps; 0 for none.
     pub(super) step: f64,
-    /// What the reset link says; `None` where the value is the default.
-    pub(super) reset: Option<&'a str>,
+    /// Whether the slider gives more room to what is small.
+    pub(super) logarithmic: bool,
+    /// Whether the value can be put back.
+    pub(super) differs: bool,
 }
 
 impl Slid<'_> {
@@ -242,12 +261,8 @@ impl Slid<'_> {
                 ui.add(Label::new(self.label)).on_hover_text(self.tip);
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     let field = self.number.show(ui, value, self.tip);
-                    if let Some(to) = self.reset {
-                        is_reset = ui
-                            .link(RichText::new(to).small())
-                            .on_hover_text(format!("{}: back to the default", self.label))
-                            .accessible_name(format!("Reset {}", self.number.name))
-                            .clicked();
+                    if self.differs {
+                        is_reset = reset(ui, self.number.name);
                     }
                     field
                 })
@@ -258,6 +273,7 @@ impl Slid<'_> {
         let slider = Slider::new(value, self.usual.clone())
             .show_value(false)
             .clamping(SliderClamping::Never)
+            .logarithmic(self.logarithmic)
             .step_by(self.step)
             .trailing_fill(true);
         let slider = ui

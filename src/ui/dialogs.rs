@@ -9,8 +9,8 @@ use rfd::{AsyncFileDialog, FileHandle};
 pub(super) enum Asked {
     /// These files or folders are to be opened.
     Open(Vec<PathBuf>),
-    /// The view is to be saved here.
-    SaveImage(PathBuf),
+    /// The view is to be saved here, with so many pixels.
+    SaveImage(PathBuf, [u32; 2]),
     /// No dialog could be shown.
     Failed(String),
 }
@@ -35,14 +35,14 @@ pub(super) fn open_folder(ctx: &egui::Context, answers: Sender<Asked>) {
     });
 }
 
-pub(super) fn save_image(ctx: &egui::Context, answers: Sender<Asked>, name: &str) {
+pub(super) fn save_image(ctx: &egui::Context, answers: Sender<Asked>, name: &str, size_px: [u32; 2]) {
     let answer = AsyncFileDialog::new()
         .set_title("Save the view")
         .set_file_name(name)
         .add_filter("PNG", &["png"])
         .save_file();
     wait(ctx, answers, async move {
-        Some(Asked::SaveImage(path_of(&answer.await?)))
+        Some(Asked::SaveImage(path_of(&answer.await?), size_px))
     });
 }
 

@@ -3,7 +3,7 @@
 use egui::text::LayoutJob;
 use egui::{Align, Button, Layout, RichText, ScrollArea, TextFormat, TextStyle, Ui};
 
-use super::controls::{hint, warning_color};
+use super::controls::{hint, small, text_field, warning_color};
 use crate::app::{Command, Entry, Sample, Source, State};
 
 /// Lists that are longer than this can be filtered.
@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<F
         ui.add_space(4.0);
     }
     if ui
-        .add(Button::new("Open…").min_size(egui::vec2(96.0, 0.0)))
+        .button("Open…")
         .on_hover_text("Choose PLY files of point clouds. A folder is opened by dropping it on the window.")
         .clicked()
     {
@@ -122,10 +122,7 @@ fn filter(ui: &mut Ui, count: usize) -> String {
     let mut typed = ui
         .data(|data| data.get_temp::<String>(memory))
         .unwrap_or_default();
-    let field = egui::TextEdit::singleline(&mut typed)
-        .hint_text("Filter by name")
-        .desired_width(f32::INFINITY);
-    ui.add(field).accessible_name("Filter by name");
+    text_field(ui, &mut typed, "Filter by name", "Filter by name");
     let filter = typed.trim().to_lowercase();
     ui.data_mut(|data| data.insert_temp(memory, typed));
     filter
@@ -144,8 +141,9 @@ fn row(ui: &mut Ui, state: &State, place: usize, commands: &mut Vec<Command>) {
     };
     text.append(&name, 0.0, TextFormat::simple(font, color));
     if let Some(problem) = &entry.problem {
-        let small = TextStyle::Small.resolve(ui.style());
-        text.append(problem, 8.0, TextFormat::simple(small, warning_color(ui)));
+        // On the current row's ground the warning's color has too little contrast.
+        let color = if is_current { color } else { warning_color(ui) };
+        text.append(problem, 8.0, TextFormat::simple(small(ui), color));
     }
     let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
     let button = Button::selectable(is_current, text).truncate().min_size(size);

@@ -36,7 +36,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         WidgetInfo::labeled(Role::Image, true, label)
     });
 
-    let radius = 0.5 * room.width().min(room.height()) - 16.0;
+    let radius = 0.5 * room.width().min(room.height()) - 18.0;
     let turn = turned(ui, &response, radius);
     let view = View::new(&planes, turn, room.center(), radius.max(20.0));
     let dots = dots(&planes, &view);
@@ -63,17 +63,11 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 
     paint_sphere(ui, &view);
     paint_lines(ui, state, &planes, &view);
-    let hollow = marks::hatch_stroke(ui);
+    // Filled discs are cheap by the thousand, circles are not.
+    let gray = ui.visuals().text_color().gamma_multiply(0.65);
     for dot in &dots {
-        match dot.color {
-            Some(color) => {
-                let color = color.gamma_multiply(opacity);
-                ui.painter().circle_filled(dot.place, dot.radius, color);
-            }
-            None => {
-                ui.painter().circle_stroke(dot.place, dot.radius, hollow);
-            }
-        }
+        let color = dot.color.map_or(gray, |color| color.gamma_multiply(opacity));
+        ui.painter().circle_filled(dot.place, dot.radius, color);
     }
     paint_marks(ui, state, &planes, &dots);
     if view.toward_viewpoint.z >= 0.0 {
@@ -94,17 +88,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 }
 
 fn entries(state: &State, planes: &Planes) -> Vec<(Mark, &'static str)> {
-    let mut entries = Vec::new();
-    if planes.best().is_some() {
-        entries.push((Mark::Best, "best"));
-    }
-    if planes.runner_up().is_some() {
-        entries.push((Mark::RunnerUp, "runner-up"));
-    }
-    entries.push((Mark::Chosen, "looked at"));
-    if planes.ranked() < planes.facts.len() {
-        entries.push((Mark::Hollow, "too few partners"));
-    }
+    let mut entries = marks::entries(state, planes, Mark::Gray);
     entries.push((Mark::Sizes, "larger: more partners"));
     entries.push((Mark::ViewRay, "view ray"));
     if chosen_axis(state, planes).is_some() {
@@ -222,7 +206,7 @@ struct Dot {
 
 /// A dot a plane, those without a score first and the best last, so that it lies on top.
 fn dots(planes: &Planes, view: &View) -> Vec<Dot> {
-    let most = (0.42 * view.radius * std::f32::consts::PI / planes.u() as f32).clamp(2.5, 11.0);
+    let most = (0.34 * view.radius * std::f32::consts::PI / planes.u() as f32).clamp(2.5, 10.0);
     let order = planes.in_rank_order();
     let dots = order.into_iter().rev().map(|index| {
         let facts = &planes.facts[index];
@@ -233,7 +217,11 @@ fn dots(planes: &Planes, view: &View) -> Vec<Dot> {
         Dot {
             index,
             place: view.place(seen),
-            radius: (most * share.sqrt()).max(0.3 * most).max(1.2),
+            // Small enough to leave room for those that count.
+            radius: match facts.score_cm {
+                Some(_) => (most * share.sqrt()).max(1.5),
+                None => (0.6 * most * share.sqrt()).clamp(1.2, 4.0),
+            },
             color: planes.color(index),
         }
     });
@@ -272,7 +260,7 @@ fn paint_lines(ui: &Ui, state: &State, planes: &Planes, view: &View) {
     let reference = state.reference().map(|r| (r.direction, REFERENCE_COLOR));
     let axis = chosen_axis(state, planes).map(|axis| (axis, AXIS_COLOR));
     for (direction, color) in [reference, axis].into_iter().flatten() {
-        let seen = 1.06 * view.seen(direction);
+        let seen = 1.1 * view.seen(direction);
         marks::outlined_line(ui.painter(), [view.place(-seen), view.place(seen)], color);
     }
 }

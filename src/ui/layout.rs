@@ -52,9 +52,15 @@ impl Pane {
     }
 }
 
+/// Windows of less width have one column of panels.
+const WIDE: f32 = 1000.0;
+
 /// The arrangement at first: clouds and parameters on the left, the view, and the planes and points
-/// on the right.
-pub fn first_layout() -> Tree<Pane> {
+/// on the right; in a narrow window all of them on the left.
+pub fn first_layout(window_width: f32) -> Tree<Pane> {
+    if !is_wide(window_width) {
+        return narrow_layout();
+    }
     let mut tiles = Tiles::default();
     let [
         view,
@@ -91,6 +97,40 @@ pub fn first_layout() -> Tree<Pane> {
         &mut tiles,
         LinearDir::Horizontal,
         &[(left, 0.9), (view_tabs, 2.6), (right, 1.1)],
+    );
+    Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+/// Whether a window of this width, in logical pixels, has room for panels on both sides.
+pub(super) fn is_wide(window_width: f32) -> bool {
+    window_width >= WIDE
+}
+
+fn narrow_layout() -> Tree<Pane> {
+    let mut tiles = Tiles::default();
+    let [
+        view,
+        files,
+        parameters,
+        map,
+        hemisphere,
+        ranking,
+        point,
+        contributions,
+    ] = Pane::ALL.map(|pane| tiles.insert_pane(pane));
+    let above = tiles.insert_tab_tile(vec![parameters, files, point, contributions]);
+    let below = tiles.insert_tab_tile(vec![map, hemisphere, ranking]);
+    for (tabs, first) in [(above, parameters), (below, map)] {
+        if let Some(egui_tiles::Tile::Container(Container::Tabs(tabs))) = tiles.get_mut(tabs) {
+            tabs.set_active(first);
+        }
+    }
+    let left = linear(&mut tiles, LinearDir::Vertical, &[(above, 1.0), (below, 1.0)]);
+    let view_tabs = tiles.insert_tab_tile(vec![view]);
+    let root = linear(
+        &mut tiles,
+        LinearDir::Horizontal,
+        &[(left, 0.66), (view_tabs, 1.0)],
     );
     Tree::new(egui::Id::unique("panels"), root, tiles)
 }

@@ -4,7 +4,8 @@ use egui::{
     Color32, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, TextStyle, Ui, Vec2, vec2,
 };
 
-use super::planes::ramp_color;
+use super::planes::{Planes, ramp_color};
+use crate::app::State;
 use crate::render::Color;
 
 /// Whatever is marked, and explained in the key.
@@ -19,7 +20,7 @@ pub enum Mark {
     /// A plane without a score, as a cell.
     Hatched,
     /// A plane without a score, as a dot.
-    Hollow,
+    Gray,
     /// That larger dots have more partners.
     Sizes,
     /// The ray to the camera.
@@ -91,6 +92,21 @@ pub fn hatch_stroke(ui: &Ui) -> Stroke {
     Stroke::new(1.0, ui.visuals().text_color().gamma_multiply(0.5))
 }
 
+/// The marks of planes that there are to explain; those without a score are marked as `without`.
+pub fn entries(state: &State, planes: &Planes, without: Mark) -> Vec<(Mark, &'static str)> {
+    let marks = [
+        (planes.best().is_some(), (Mark::Best, "best")),
+        (planes.runner_up().is_some(), (Mark::RunnerUp, "runner-up")),
+        (state.chosen_plane_index().is_some(), (Mark::Chosen, "looked at")),
+        (
+            planes.ranked() < planes.facts.len(),
+            (without, "too few partners"),
+        ),
+    ];
+    let shown = marks.into_iter().filter(|(is_there, _)| *is_there);
+    shown.map(|(_, entry)| entry).collect()
+}
+
 /// Says what marks mean, in as many lines as they need.
 pub fn key(ui: &mut Ui, entries: &[(Mark, &str)]) {
     let font = label_font(ui);
@@ -130,8 +146,8 @@ fn paint(ui: &Ui, place: Rect, mark: Mark) {
                 painter.line_segment([square.left_bottom() + by, square.right_top() + by], stroke);
             }
         }
-        Mark::Hollow => {
-            painter.circle_stroke(middle, 3.5, hatch_stroke(ui));
+        Mark::Gray => {
+            painter.circle_filled(middle, 3.0, ui.visuals().text_color().gamma_multiply(0.65));
         }
         Mark::Sizes => {
             painter.circle_filled(middle - vec2(4.0, 0.0), 2.0, ramp_color(0.45));

@@ -2,7 +2,7 @@
 
 use egui::{MenuBar, RichText};
 
-use super::actions::{Act, Action, Group};
+use super::actions::{Act, Action, Group, key_text};
 use crate::app::{Command, State};
 
 /// Shows the bar; what is chosen goes to `acts`.
@@ -29,7 +29,7 @@ fn item(ui: &mut egui::Ui, action: &Action, acts: &mut Vec<Act>) {
     let keys = action
         .keys
         .first()
-        .map(|key| ui.ctx().format_shortcut(key))
+        .map(|key| key_text(ui.ctx(), key))
         .unwrap_or_default();
     let chosen = match action.is_on {
         Some(mut is_on) => {

@@ -23,6 +23,7 @@ mod plane_tip;
 mod planes;
 pub mod point;
 pub mod ranking;
+mod save_image;
 pub mod score_map;
 pub mod scrub;
 mod status;

@@ -39,15 +39,17 @@ pub fn if_stale(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     if !state.is_stale {
         return;
     }
+    let font = super::marks::label_font(ui);
+    let note = |text: &str| RichText::new(text).font(font.clone()).italics();
     if state.was_cancelled {
         ui.horizontal_wrapped(|ui| {
-            ui.label(RichText::new("Of the settings before: the new analysis was stopped.").small());
+            ui.label(note("Of the settings before: the new analysis was stopped."));
             if ui.small_button("Analyze").clicked() {
                 commands.push(Command::Resume);
             }
         });
     } else {
-        ui.label(RichText::new("Of the settings before, until the new analysis is done.").small());
+        ui.label(note("Of the settings before, until the new analysis is done."));
     }
 }
 

@@ -1,7 +1,7 @@
 //! Which panel draws what.
 
 use egui::{Frame, Margin, Panel, ScrollArea, WidgetText};
-use egui_tiles::{Behavior, SimplificationOptions, TileId, UiResponse};
+use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse};
 
 use super::actions::{Act, Action, WindowAct};
 use super::files::{self, FilesAnswer};
@@ -19,6 +19,8 @@ pub(super) struct Panes<'a> {
     pub(super) commands: &'a mut Vec<Command>,
     /// The 3-D view's size, where it is shown.
     pub(super) viewport: &'a mut Option<Viewport>,
+    /// Whether somebody has arranged the panels otherwise.
+    pub(super) was_moved: &'a mut bool,
 }
 
 impl Behavior<Pane> for Panes<'_> {
@@ -42,6 +44,10 @@ impl Behavior<Pane> for Panes<'_> {
             all_panes_must_have_tabs: true,
             ..SimplificationOptions::default()
         }
+    }
+
+    fn on_edit(&mut self, action: EditAction) {
+        *self.was_moved |= matches!(action, EditAction::TileResized | EditAction::TileDropped);
     }
 
     fn min_size(&self) -> f32 {

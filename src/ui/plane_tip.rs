@@ -102,6 +102,17 @@ pub fn tooltip(response: &Response, planes: &Planes, index: usize) {
         });
 }
 
+/// Says why the plane under the cursor has no score.
+pub fn explain_missing(response: &Response, planes: &Planes, index: usize) {
+    if planes.facts.get(index).is_some_and(|f| f.score_cm.is_none()) {
+        let least = 100.0 * planes.analysis.params.min_partner_fraction;
+        let percent = planes.partner_percent(&planes.facts[index]);
+        response.clone().on_hover_text_at_pointer(format!(
+            "Too few partners for a score: {percent:.0} % of the points have one, {least:.0} % are asked for."
+        ));
+    }
+}
+
 /// Previews the plane under the cursor, and takes that back once when the cursor has left. `widget` is
 /// whoever is hovered.
 pub fn preview(ui: &Ui, widget: Id, hovered: Option<usize>, commands: &mut Vec<Command>) {

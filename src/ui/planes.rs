@@ -94,7 +94,7 @@ impl ScoreScale {
     pub fn digits(&self, score_cm: f64) -> String {
         let span = (self.high_cm - self.low_cm).max(1e-6);
         // From 0 to 6.
-        let decimals = (1.0 - span.log10().floor()).clamp(0.0, 6.0) as usize;
+        let decimals = (2.0 - span.log10().floor()).clamp(0.0, 6.0) as usize;
         format!("{score_cm:.decimals$}")
     }
 }

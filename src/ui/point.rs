@@ -3,7 +3,7 @@
 use egui::{Button, Color32, Label, RichText, Ui};
 use glam::DVec3;
 
-use super::controls::{caution, hint};
+use super::controls::{caution, hint, small};
 use crate::app::why::{Match, NEIGHBOR_COLOR, POINT_COLOR, REFLECTION_COLOR, Steps, Why, why};
 use crate::app::{Command, State};
 use crate::evaluate::sentence;
@@ -28,18 +28,13 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             let unit = explained.unit;
             reflection(ui, unit, steps);
             visibility(ui, steps);
-            match &steps.partner {
-                Some(partner) => neighbor(ui, unit, partner),
-                None => {
-                    title(ui, 4, "No partner", "Eq. 14", None);
-                    ui.add(
-                        Label::new(
-                            "d and ξ do not exist: the camera could not have seen a partner of this point, so \
-                             it adds nothing to the plane's score.",
-                        )
-                        .wrap(),
-                    );
-                }
+            if let Some(partner) = &steps.partner {
+                neighbor(ui, unit, partner);
+            } else {
+                title(ui, 4, "No partner", "Eq. 14", None);
+                let why = "d and ξ do not exist: the camera could not have seen a partner of this point, so \
+                           it adds nothing to the plane's score.";
+                ui.add(Label::new(why).wrap());
             }
         }
         Err(why_not) => {
@@ -116,7 +111,8 @@ fn title(ui: &mut Ui, number: usize, text: &str, place: &str, color: Option<Colo
                 .circle(rect.center(), 4.5, Color32::from_rgb(r, g, b), outline);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.label(RichText::new(place).small());
+            let font = small(ui);
+            ui.label(RichText::new(place).font(font));
         });
     });
 }
@@ -220,7 +216,7 @@ fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &Match) {
     title(ui, 4, "Nearest neighbor", "Fig. 6a", Some(NEIGHBOR_COLOR));
     value(
         ui,
-        "Index of used points",
+        "Index among used points",
         partner.surface_index.to_string(),
         "Its place among the points that the method uses, from 0.",
     );
@@ -268,7 +264,7 @@ fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &Match) {
     let tau = partner.tau_cm_per_rad;
     hint(
         ui,
-        format!("With τ = {tau:.3} cm/rad. Without the angle (τ = 0) it would be d alone."),
+        format!("With τ = {tau:.3} cm/rad. At τ = 0 it would be d alone."),
     );
     shares(ui, partner);
     if let Some(share) = partner.share_below {
@@ -289,13 +285,23 @@ fn shares(ui: &mut Ui, partner: &Match) {
         ui.allocate_exact_size(egui::vec2(ui.available_width(), 16.0), egui::Sense::hover());
     let share = (partner.distance_cm / partner.score_cm) as f32;
     let middle = rect.left() + share * rect.width();
-    let (of_d, of_xi) = (
+    // White is read well on both.
+    let (of_d, of_angle) = (
         Color32::from_rgb(0x1f, 0x6f, 0xb0),
-        Color32::from_rgb(0xd5, 0x5e, 0x00),
+        Color32::from_rgb(0xa8, 0x49, 0x00),
     );
     let painter = ui.painter_at(rect);
-    painter.rect_filled(rect.with_max_x(middle), 0.0, of_d);
-    painter.rect_filled(rect.with_min_x(middle), 0.0, of_xi);
+    let parts = [
+        (rect.with_max_x(middle), of_d, "d"),
+        (rect.with_min_x(middle), of_angle, "τξ"),
+    ];
+    for (part, color, name) in parts {
+        painter.rect_filled(part, 0.0, color);
+        if part.width() > 20.0 {
+            let (at, font) = (part.center(), small(ui));
+            painter.text(at, egui::Align2::CENTER_CENTER, name, font, Color32::WHITE);
+        }
+    }
     response.on_hover_text(format!(
         "d is {:.0} % of S, τξ {:.0} %.",
         100.0 * share,

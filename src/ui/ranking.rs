@@ -297,6 +297,7 @@ fn table(ui: &mut Ui, id: Id, width: f32, state: &State, rows: &Rows, commands: 
             let response = row(ui, id, vec2(width, row_height), state, &rows.planes, index);
             if response.hovered() {
                 hovered = Some(index);
+                plane_tip::explain_missing(&response, &rows.planes, index);
             }
             if response.clicked() {
                 commands.push(Command::LookAt(rows.planes.facts[index].choice()));

@@ -22,17 +22,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     notice::if_stale(ui, state, commands);
     notice::if_no_plane(ui, &planes.analysis);
     if ui.available_height() > 250.0 {
-        let mut entries = vec![(Mark::Chosen, "looked at")];
-        if planes.best().is_some() {
-            entries.insert(0, (Mark::Best, "best"));
-        }
-        if planes.runner_up().is_some() {
-            entries.insert(1, (Mark::RunnerUp, "runner-up"));
-        }
-        if planes.ranked() < planes.facts.len() {
-            entries.push((Mark::Hatched, "too few partners"));
-        }
-        marks::key(ui, &entries);
+        marks::key(ui, &marks::entries(state, &planes, Mark::Hatched));
     }
     let size = ui.available_size().max(vec2(140.0, 120.0));
     let (whole, _) = ui.allocate_exact_size(size, Sense::hover());

@@ -102,7 +102,14 @@ fn slider(
 
     // What is left of the line, without the typed value and the box after it.
     let beside = 300.0;
-    ui.spacing_mut().slider_width = (ui.available_width() - beside).clamp(80.0, 900.0);
+    let rest = ui.available_size_before_wrap().x - ui.spacing().item_spacing.x;
+    // Where that is hardly anything, these go to the next line.
+    let width = if rest - beside < 120.0 {
+        rest
+    } else {
+        rest - beside
+    };
+    ui.spacing_mut().slider_width = width.max(80.0);
     let explained = if by_rank {
         "The planes from the best to the worst (Left and Right arrow)"
     } else {

@@ -84,7 +84,7 @@ fn result(ui: &mut egui::Ui, state: &State) {
         (Some(axis), Some(reference)) => parts.push(format!(
             "best axis {:.1}° off the {} axis",
             axis_error_rad(axis, reference).to_degrees(),
-            reference_name(reference.source.name())
+            reference_name(&reference.source.name())
         )),
         (Some(_), None) => parts.push("no reference axis".into()),
         (None, _) => parts.push("no axis".into()),

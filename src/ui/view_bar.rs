@@ -8,32 +8,55 @@ use crate::evaluate::TruthChoice;
 use crate::method::AxisSource;
 use crate::view::{Coloring, ViewPreset};
 
+/// Bars of less width have the places to look from in a menu.
+const WIDE: f32 = 860.0;
+
+/// The usual places to look from, by short names.
+const PLACES: [(&str, ViewPreset); 6] = [
+    ("Camera", ViewPreset::Camera),
+    ("Front", ViewPreset::Front),
+    ("Side", ViewPreset::Side),
+    ("Top", ViewPreset::Top),
+    ("Normal", ViewPreset::Normal),
+    ("Axis", ViewPreset::Axis),
+];
+
 /// Shows the bar.
 pub fn show(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
+    let is_wide = ui.available_width() >= WIDE;
     ui.horizontal_wrapped(|ui| {
         colorings(ui, state, actions, acts);
         overlays(ui, actions, acts);
-        ui.separator();
-        for (text, preset) in [
-            ("Camera", ViewPreset::Camera),
-            ("Front", ViewPreset::Front),
-            ("Side", ViewPreset::Side),
-            ("Top", ViewPreset::Top),
-            ("Normal", ViewPreset::Normal),
-            ("Axis", ViewPreset::Axis),
-        ] {
-            button(ui, text, &Act::App(Command::View(preset)), actions, acts);
+        if is_wide {
+            ui.separator();
+            for (text, preset) in PLACES {
+                button(ui, text, &Act::App(Command::View(preset)), actions, acts);
+            }
+            button(ui, "Fit", &Act::App(Command::Frame), actions, acts);
+        } else {
+            button(ui, "Fit", &Act::App(Command::Frame), actions, acts);
+            ui.menu_button("Look from", |ui| {
+                ui.set_min_width(210.0);
+                for action in actions
+                    .iter()
+                    .filter(|a| a.group == Group::View && a.is_on.is_none())
+                {
+                    let keys = action.keys_text(ui.ctx());
+                    let button = egui::Button::new(action.title.as_str()).shortcut_text(keys);
+                    if ui.add_enabled(action.is_enabled, button).clicked() {
+                        acts.push(action.act.clone());
+                        ui.close();
+                    }
+                }
+            });
         }
-        button(ui, "All", &Act::App(Command::Frame), actions, acts);
         let parallel = actions
             .iter()
             .find(|a| matches!(a.act, Act::App(Command::Project(_))));
         if let Some(action) = parallel {
             let is_on = action.is_on == Some(true);
-            let response = ui
-                .selectable_label(is_on, "Parallel")
-                .on_hover_text(tip(ui.ctx(), action));
-            if response.clicked() {
+            let button = egui::Button::new("Parallel").selected(is_on);
+            if ui.add(button).on_hover_text(tip(ui.ctx(), action)).clicked() {
                 acts.push(action.act.clone());
             }
         }
@@ -42,9 +65,8 @@ pub fn show(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec
 }
 
 fn colorings(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
-    let label = ui.label("Color");
     let current = state.style.coloring;
-    ComboBox::from_id_salt("coloring")
+    let response = ComboBox::from_id_salt("coloring")
         .selected_text(coloring_title(current))
         .width(146.0)
         .show_ui(ui, |ui| {
@@ -59,8 +81,10 @@ fn colorings(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Ve
                 }
             }
         })
-        .response
-        .labelled_by(label.id);
+        .response;
+    response
+        .on_hover_text("What the points' colors show")
+        .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Color by"));
 }
 
 fn overlays(ui: &mut egui::Ui, actions: &[Action], acts: &mut Vec<Act>) {
@@ -103,17 +127,18 @@ fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
     }
     let choice_of = |source: &AxisSource| match source {
         AxisSource::Simulation => TruthChoice::Truth,
+        AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated => TruthChoice::Manual,
         _ => TruthChoice::Peduncle,
     };
     let name = |source: &AxisSource| match source {
         AxisSource::Simulation => "Simulated axis",
+        AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated => "Axis by hand",
         _ => "Peduncle's axis",
     };
     let Some(current) = state.reference() else { return };
-    let label = ui.label("against");
-    ComboBox::from_id_salt("reference")
+    let response = ComboBox::from_id_salt("reference")
         .selected_text(name(&current.source))
-        .width(112.0)
+        .width(120.0)
         .show_ui(ui, |ui| {
             for reference in &state.references {
                 let is_on = reference.source == current.source;
@@ -122,6 +147,8 @@ fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
                 }
             }
         })
-        .response
-        .labelled_by(label.id);
+        .response;
+    response
+        .on_hover_text("The reference that the computed axis is compared with")
+        .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Reference axis"));
 }

@@ -10,10 +10,11 @@ use egui_tiles::Tree;
 
 use super::actions::{Act, Action, WindowAct, actions};
 use super::dialogs::{self, Asked};
-use super::layout::{Pane, first_layout, layout_from};
+use super::layout::{Pane, first_layout, is_wide, layout_from};
 use super::paint::Views;
 use super::palette::{Answer, Palette};
 use super::panes::Panes;
+use super::save_image::{self, SaveImage};
 use super::{help, menu, status, theme};
 use crate::app::worker::Repaint;
 use crate::app::{App, Command, Session, command_line, quoted};
@@ -34,9 +35,13 @@ pub struct Start {
 pub struct Window {
     app: App,
     tree: Tree<Pane>,
+    /// Whether nobody has moved a panel: then the arrangement follows the window's width.
+    is_layout_ours: bool,
+    laid_out_for: f32,
     is_help_open: bool,
     is_about_open: bool,
     palette: Option<Palette>,
+    saving: Option<SaveImage>,
     answers: (Sender<Asked>, Receiver<Asked>),
     session_path: Option<PathBuf>,
     kept: Option<Session>,
@@ -89,10 +94,13 @@ impl Window {
         }
         Ok(Self {
             app,
-            tree: layout.unwrap_or_else(first_layout),
+            is_layout_ours: layout.is_none(),
+            tree: layout.unwrap_or_else(|| first_layout(f32::INFINITY)),
+            laid_out_for: f32::INFINITY,
             is_help_open: false,
             is_about_open: false,
             palette: None,
+            saving: None,
             answers: channel(),
             session_path: start.session_path,
             kept: None,
@@ -128,7 +136,9 @@ impl Window {
             status::show(ui, self.app.state(), &mut commands);
             ui.add_space(2.0);
         });
+        self.lay_out(ui.available_width());
         let mut viewport = None;
+        let mut was_moved = false;
         CentralPanel::default()
             .frame(Frame::new().fill(ui.visuals().panel_fill))
             .show(ui, |ui| {
@@ -139,9 +149,11 @@ impl Window {
                     acts: &mut acts,
                     commands: &mut commands,
                     viewport: &mut viewport,
+                    was_moved: &mut was_moved,
                 };
                 self.tree.ui(&mut panes, ui);
             });
+        self.is_layout_ours &= !was_moved;
         if self.is_help_open {
             self.is_help_open = help::show(&ctx, &all);
         }
@@ -155,6 +167,16 @@ impl Window {
                 Answer::Chosen(act) => {
                     self.palette = None;
                     acts.push(act);
+                }
+            }
+        }
+        if let Some(saving) = &mut self.saving {
+            match saving.show(&ctx) {
+                save_image::Answer::Open => {}
+                save_image::Answer::Closed => self.saving = None,
+                save_image::Answer::Chosen(size_px) => {
+                    self.saving = None;
+                    acts.push(Act::Window(WindowAct::SaveImageOf(size_px)));
                 }
             }
         }
@@ -173,6 +195,17 @@ impl Window {
         }
     }
 
+    /// Arranges the panels for the window's width, unless somebody has moved one.
+    fn lay_out(&mut self, width: f32) {
+        if !self.is_layout_ours || self.laid_out_for == width {
+            return;
+        }
+        if self.laid_out_for.is_nan() || is_wide(self.laid_out_for) != is_wide(width) {
+            self.tree = first_layout(width);
+        }
+        self.laid_out_for = width;
+    }
+
     /// Files that were dropped, and answers of dialogs.
     fn files(&mut self, ctx: &egui::Context, acts: &mut Vec<Act>) {
         let dropped: Vec<PathBuf> = ctx.input(|i| {
@@ -185,17 +218,15 @@ impl Window {
         while let Ok(answer) = self.answers.1.try_recv() {
             acts.push(Act::App(match answer {
                 Asked::Open(paths) => Command::Open(paths),
-                Asked::SaveImage(path) => {
-                    let size_px = picture_size(self.app.state());
-                    Command::SaveImage { path, size_px }
-                }
+                Asked::SaveImage(path, size_px) => Command::SaveImage { path, size_px },
                 Asked::Failed(text) => Command::Say { is_error: true, text },
             }));
         }
     }
 
     fn keys(&self, ctx: &egui::Context, all: &[Action], acts: &mut Vec<Act>) {
-        if self.is_help_open || self.is_about_open || self.palette.is_some() || ctx.text_edit_focused() {
+        let is_covered = self.is_help_open || self.is_about_open || self.saving.is_some();
+        if is_covered || self.palette.is_some() || ctx.text_edit_focused() {
             return;
         }
         let is_focused = ctx.memory(|m| m.focused()).is_some();
@@ -240,15 +271,16 @@ impl Window {
         match act {
             WindowAct::OpenFiles => dialogs::open_files(ctx, answers),
             WindowAct::OpenFolder => dialogs::open_folder(ctx, answers),
-            WindowAct::SaveImage => {
+            WindowAct::SaveImage => self.saving = Some(SaveImage::new(view_size(self.app.state()))),
+            WindowAct::SaveImageOf(size_px) => {
                 let name = self.app.state().source().map(|s| s.path().with_extension("png"));
                 let name = name.and_then(|n| n.file_name().map(|n| n.to_string_lossy().into_owned()));
-                dialogs::save_image(ctx, answers, name.as_deref().unwrap_or("view.png"));
+                dialogs::save_image(ctx, answers, name.as_deref().unwrap_or("view.png"), size_px);
             }
             WindowAct::CopyCommandLine => {
                 let state = self.app.state();
                 let mut words = vec!["axiscope".to_owned()];
-                words.extend(command_line(state, "view.png", picture_size(state)));
+                words.extend(command_line(state, "view.png", view_size(state)));
                 ctx.copy_text(quoted(&words));
                 self.app.apply(Command::Say {
                     is_error: false,
@@ -262,7 +294,10 @@ impl Window {
                 let tile = self.tree.tiles.find_pane(&pane);
                 self.tree.make_active(|id, _| Some(id) == tile);
             }
-            WindowAct::ResetLayout => self.tree = first_layout(),
+            WindowAct::ResetLayout => {
+                self.is_layout_ours = true;
+                self.laid_out_for = f32::NAN;
+            }
             WindowAct::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
     }
@@ -275,7 +310,9 @@ impl Window {
         }
         self.last_kept = Instant::now();
         let mut session = Session::of(self.app.state());
-        session.layout = serde_json::to_string(&self.tree).ok();
+        if !self.is_layout_ours {
+            session.layout = serde_json::to_string(&self.tree).ok();
+        }
         session.window_size = size.or(self.kept.as_ref().and_then(|k| k.window_size));
         if self.kept.as_ref() == Some(&session) {
             return;
@@ -292,10 +329,11 @@ impl Window {
     }
 }
 
-/// Twice the view's size, for print.
-fn picture_size(state: &crate::app::State) -> [u32; 2] {
+/// The view's size in physical pixels.
+fn view_size(state: &crate::app::State) -> [u32; 2] {
+    let scale = f64::from(state.pixels_per_point);
     // Clamped to what a picture may have.
-    [state.viewport.width_px, state.viewport.height_px].map(|s| (2.0 * s).clamp(1.0, 8192.0) as u32)
+    [state.viewport.width_px, state.viewport.height_px].map(|s| (scale * s).round().clamp(1.0, 8192.0) as u32)
 }
 
 impl eframe::App for Window {

@@ -4,6 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use axiscope::evaluate::{Request, Row, Summary};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 
 /// How many clouds are listed, worst first.
 const WORST: usize = 30;
@@ -11,7 +13,8 @@ const WORST: usize = 30;
 const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem;color:#1c1c1c}\
 h1,h2{font-weight:600}table{border-collapse:collapse;margin:1rem 0}th,td{padding:.3rem .8rem;border-bottom:1px solid #ddd;\
 text-align:left;vertical-align:top}td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}figure{margin:1.5rem 0}\
-svg{max-width:100%;height:auto}code{font-size:13px}";
+svg,img{max-width:100%;height:auto}.g{display:grid;\
+grid-template-columns:repeat(auto-fill,minmax(22rem,1fr));gap:1rem}.g figure{margin:0}code{font-size:13px}";
 
 /// The page. Whatever comes from outside is escaped.
 pub(super) fn report(
@@ -20,11 +23,25 @@ pub(super) fn report(
     rows: &[Row],
     summary: &Summary,
     figures: &[String],
+    pictures: &[WorstPicture],
 ) -> String {
     let mut page = String::new();
     // Writing to a string cannot fail.
-    let _ = write(&mut page, folder, request, rows, summary, figures);
+    let _ = write(&mut page, folder, request, rows, summary, figures)
+        .and_then(|()| write_worst(&mut page, rows))
+        .and_then(|()| write_pictures(&mut page, pictures))
+        .and_then(|()| writeln!(page, "</body></html>"));
     page
+}
+
+/// A picture of one of the worst clouds.
+pub(super) struct WorstPicture {
+    /// The cloud's file.
+    pub(super) file: String,
+    /// Its error in degrees.
+    pub(super) error_deg: Option<f64>,
+    /// PNG bytes.
+    pub(super) png: Vec<u8>,
 }
 
 fn write(
@@ -92,16 +109,42 @@ fn write(
     for figure in figures {
         writeln!(page, "<figure>{figure}</figure>")?;
     }
-    write_worst(page, rows)?;
-    writeln!(page, "</body></html>")
+    Ok(())
 }
 
-fn write_worst(page: &mut String, rows: &[Row]) -> std::fmt::Result {
+/// The rows that have an error, the largest first.
+pub(super) fn worst_first(rows: &[Row]) -> Vec<&Row> {
     let mut worst: Vec<(f64, &Row)> = rows
         .iter()
         .filter_map(|row| Some((row.error_deg?, row)))
         .collect();
     worst.sort_by(|a, b| b.0.total_cmp(&a.0));
+    worst.into_iter().map(|(_, row)| row).collect()
+}
+
+fn write_pictures(page: &mut String, pictures: &[WorstPicture]) -> std::fmt::Result {
+    if pictures.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        page,
+        "<h2>Pictures of the worst</h2><p>The computed axis in green, the reference in white; the colors are the \
+         sides of the symmetry plane.</p><div class=\"g\">"
+    )?;
+    for picture in pictures {
+        let (file, error_deg) = (escaped(&picture.file), picture.error_deg.unwrap_or_default());
+        writeln!(
+            page,
+            "<figure><img alt=\"{file}, {error_deg:.2}° off\" src=\"data:image/png;base64,{}\">\
+             <figcaption><code>{file}</code>, {error_deg:.2}°</figcaption></figure>",
+            STANDARD.encode(&picture.png)
+        )?;
+    }
+    writeln!(page, "</div>")
+}
+
+fn write_worst(page: &mut String, rows: &[Row]) -> std::fmt::Result {
+    let worst = worst_first(rows);
     if worst.is_empty() {
         return Ok(());
     }
@@ -110,7 +153,8 @@ fn write_worst(page: &mut String, rows: &[Row]) -> std::fmt::Result {
         "<h2>The worst first</h2><table><tr><th>File</th><th class=\"n\">Error</th><th>Against</th>\
          <th class=\"n\">Score (cm)</th><th class=\"n\">Lead</th><th class=\"n\">Points with a partner</th><th>Warnings</th></tr>"
     )?;
-    for (error_deg, row) in worst.iter().take(WORST) {
+    for row in worst.into_iter().take(WORST) {
+        let error_deg = row.error_deg.unwrap_or_default();
         let text = |value: &Option<String>| escaped(value.as_deref().unwrap_or("–"));
         let number = |value: Option<f64>, digits: usize, unit: &str| {
             value.map_or("–".into(), |v| format!("{v:.digits$}{unit}"))

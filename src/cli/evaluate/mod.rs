@@ -2,6 +2,8 @@
 
 mod figures;
 mod html;
+#[cfg(feature = "window")]
+mod pictures;
 mod store;
 mod sweep;
 
@@ -38,16 +40,22 @@ pub(super) struct Evaluate {
     /// Take what an earlier run into the same folder has finished, where cloud and settings are the same
     #[arg(long)]
     resume: bool,
+    /// Pictures of the worst clouds in the report
+    #[cfg(feature = "window")]
+    #[arg(long, value_name = "N", default_value_t = 12)]
+    pictures: usize,
     #[command(flatten)]
     analysis: AnalysisOptions,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum TruthOption {
-    /// The simulator's truth where there is one, else the peduncle
+    /// The simulator's truth where there is one, else the axis set by hand, else the peduncle
     Auto,
     /// The axis from the fruit center through the peduncle (§ 3.2)
     Peduncle,
+    /// The axis set by hand: the adjudicated one, else the mean of the annotators'
+    Manual,
     /// The axis in NAME.truth.json
     Truth,
 }
@@ -85,6 +93,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     let choice = match args.truth {
         TruthOption::Auto => TruthChoice::Auto,
         TruthOption::Peduncle => TruthChoice::Peduncle,
+        TruthOption::Manual => TruthChoice::Manual,
         TruthOption::Truth => TruthChoice::Truth,
     };
     let store = Store::open(&args.out, &request, choice, sweep.as_ref(), args.resume)?;
@@ -125,7 +134,17 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
         save(&format!("{name}.png"), &figure.png(1.0)?)?;
         drawn.push(svg);
     }
-    let page = html::report(&args.folder, &request, &rows, &summary, &drawn);
+    #[cfg(feature = "window")]
+    let pictures = {
+        let (pictures, problem) = pictures::of_worst(&args.folder, &rows, &request, args.pictures);
+        if let Some(problem) = problem {
+            eprintln!("Warning: {problem}");
+        }
+        pictures
+    };
+    #[cfg(not(feature = "window"))]
+    let pictures = Vec::new();
+    let page = html::report(&args.folder, &request, &rows, &summary, &drawn, &pictures);
     save("report.html", page.as_bytes())?;
     write_summary(&mut std::io::stdout().lock(), &summary)?;
     eprintln!(
@@ -136,7 +155,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
 }
 
 /// Every cloud in the folder, by name. A companion that holds a peduncle alone is no cloud of its own.
-fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+pub(super) fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let entries = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
     let mut clouds = Vec::new();
     for entry in entries {

@@ -5,7 +5,9 @@ use std::sync::Mutex;
 
 use anyhow::Context;
 use axiscope::evaluate::{Request, Row, SweepSettings, TruthChoice, examine, sentence, sweep_cloud};
-use axiscope::io::{Fruit, companion_path, sha256_hex, truth_path};
+use axiscope::io::{
+    Fruit, PeduncleChoice, annotation_paths, companion_path, removed_path, sha256_hex, truth_path,
+};
 use serde::{Deserialize, Serialize};
 
 /// What is kept of one cloud.
@@ -77,7 +79,12 @@ impl<'a> Store<'a> {
             "{} {name} {request:?} {choice:?} {sweep:?}",
             env!("CARGO_PKG_VERSION")
         );
-        for file in [path.to_path_buf(), companion_path(path), truth_path(path)] {
+        let mut files = vec![path.to_path_buf(), companion_path(path), truth_path(path)];
+        if let PeduncleChoice::Removed(folder) = &request.peduncle {
+            files.push(removed_path(path, folder));
+        }
+        files.extend(annotation_paths(path));
+        for file in files {
             // Reading a pipe would wait for somebody to write into it.
             let bytes = file.is_file().then(|| std::fs::read(file).ok()).flatten();
             parts.push(' ');

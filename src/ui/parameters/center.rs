@@ -56,18 +56,15 @@ pub(super) fn show(ui: &mut Ui, state: &State, edit: &mut Edit<'_>, commands: &m
     let is_reset = section(ui, "Fruit center", true, differs, |ui| {
         method(ui, state, edit);
         settings(ui, state, edit);
-        let mut moves = state.tool == Tool::MoveCenter;
+        let moves = state.tool == Tool::MoveCenter;
         let tip = "Dragging in the view then moves the fruit center instead of the camera, in the plane of \
                    the screen.";
-        if ui
-            .toggle_value(&mut moves, "Move in the view")
-            .on_hover_text(tip)
-            .changed()
-        {
+        let button = egui::Button::selectable(moves, "Move in the view").frame_when_inactive(true);
+        if ui.add(button).on_hover_text(tip).clicked() {
             commands.push(Command::Use(if moves {
-                Tool::MoveCenter
-            } else {
                 Tool::Navigate
+            } else {
+                Tool::MoveCenter
             }));
         }
         if moves {
@@ -94,7 +91,7 @@ fn method(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
             tip,
             vec![
                 choice(Method::Equidistant, "equidistant"),
-                choice(Method::MeanRms, "mean-rms (as printed)"),
+                choice(Method::MeanRms, "mean-rms"),
                 choice(Method::Sphere, "sphere"),
                 choice(Method::Given, "given by X, Y, Z"),
             ],

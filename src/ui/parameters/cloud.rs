@@ -64,7 +64,7 @@ fn unit(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
     let tip = "The unit of the file's coordinates. Distances are scored in centimeters, whatever it is.";
     let came_to = state.walked.as_ref().map(|walked| walked.fruit.unit);
     let auto = match came_to.filter(|_| edit.request.unit.is_none()) {
-        Some(unit) => format!("auto: {}", name(unit)),
+        Some(unit) => format!("auto: {unit}"),
         None => "auto".into(),
     };
     let chosen = row(ui, "File's unit", tip, |ui| {
@@ -90,8 +90,8 @@ fn normals(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
         .as_ref()
         .map(|walked| walked.fruit.cloud().normals().is_some());
     let auto = match has_normals {
-        Some(true) => "auto: from the file",
-        Some(false) => "auto: estimated",
+        Some(true) => "auto: file",
+        Some(false) => "auto: estimate",
         None => "auto",
     };
     let hindered = (has_normals == Some(false)).then_some("This file has no normals (nx, ny, nz).");
@@ -105,12 +105,12 @@ fn normals(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
                 Choice::new(None, auto, "The file's where it has them, else estimated."),
                 Choice::new(
                     Some(NormalSource::Estimate),
-                    "estimated",
+                    "estimate",
                     "A plane is fitted to each point's neighborhood (Eq. 2).",
                 ),
                 Choice::new(
                     Some(NormalSource::File),
-                    "from the file",
+                    "file",
                     "As they stand there; they are not turned towards the viewpoint.",
                 )
                 .unless(hindered),

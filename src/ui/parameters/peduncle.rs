@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use egui::{Color32, Mesh, Sense, Ui, ecolor::Hsva, pos2, vec2};
 
-use super::super::controls::{Choice, Edit, Number, Slid, choose, hint, row, section};
+use super::super::controls::{Choice, Edit, Number, Slid, choose, hint, row, section, text_field};
 use crate::app::State;
 use crate::io::PeduncleChoice;
 use crate::reference::{HueRange, Peduncle, PeduncleSource};
@@ -30,7 +30,8 @@ impl Way {
             PeduncleChoice::Auto => Self::Auto,
             PeduncleChoice::None => Self::None,
             PeduncleChoice::Label => Self::Label,
-            PeduncleChoice::File(_) => Self::File,
+            // There is no control yet for a folder of clouds without their peduncles.
+            PeduncleChoice::File(_) | PeduncleChoice::Removed(_) => Self::File,
             PeduncleChoice::Hue(_) => Self::Hue,
         }
     }
@@ -130,6 +131,7 @@ fn found_in_words(found: Option<&Peduncle>) -> String {
     let by = match peduncle.source {
         PeduncleSource::Label => "by the file's labels",
         PeduncleSource::Companion => "in a file of its own",
+        PeduncleSource::Removal => "by the cloud without it",
         PeduncleSource::Hue(_) => "by color",
     };
     format!("Found {by}: {} points", peduncle.points)
@@ -148,13 +150,8 @@ fn file(ui: &mut Ui, edit: &mut Edit<'_>) -> bool {
         .data(|data| data.get_temp::<(String, String)>(memory))
         .filter(|(of, _)| *of == now)
         .unwrap_or_else(|| (now.clone(), now.clone()));
-    let field = egui::TextEdit::singleline(&mut typed)
-        .hint_text("path of a PLY file")
-        .desired_width(f32::INFINITY);
-    let response = ui
-        .add(field)
-        .on_hover_text(tip)
-        .accessible_name("File of the peduncle");
+    let response =
+        text_field(ui, &mut typed, "path of a PLY file", "File of the peduncle").on_hover_text(tip);
     let path = typed.trim().to_owned();
     ui.data_mut(|data| data.insert_temp(memory, (of, typed)));
     let is_named = response.lost_focus() && !path.is_empty() && path != now;
@@ -194,7 +191,8 @@ fn hue(ui: &mut Ui, edit: &mut Edit<'_>) {
             },
             usual: 0.0..=360.0,
             step: 1.0,
-            reset: None,
+            logarithmic: false,
+            differs: false,
         }
         .show(ui, value);
         edit.note(&response, "hue");

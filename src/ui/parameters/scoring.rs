@@ -22,9 +22,11 @@ pub(super) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
             decimals: 0,
             width: 56.0,
         },
-        usual: CandidateGrid::MIN_U as f64..=CandidateGrid::MAX_U as f64,
+        // More take minutes for a large cloud.
+        usual: CandidateGrid::MIN_U as f64..=60.0,
         step: 1.0,
-        reset: (edit.request.params.u != 6).then_some("reset to 6"),
+        logarithmic: true,
+        differs: edit.request.params.u != 6,
     }
     .show(ui, &mut u);
     edit.note(&response, "u");
@@ -57,7 +59,8 @@ pub(super) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
         },
         usual: 0.0..=4.0,
         step: 0.0,
-        reset: (*tau != TAU_CM_PER_RAD).then_some("3/π"),
+        logarithmic: false,
+        differs: *tau != TAU_CM_PER_RAD,
     }
     .show(ui, tau);
     if is_reset {
@@ -90,7 +93,7 @@ pub(super) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
                     ),
                     Choice::new(
                         Aggregation::Sum,
-                        "sum (as printed)",
+                        "sum",
                         "The sum over the points with a partner, as printed. A plane that leaves hardly a \
                          point with a partner wins.",
                     ),
@@ -107,7 +110,7 @@ pub(super) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
         let mut percent = 100.0 * params.min_partner_fraction;
         let before = percent;
         let usual = 100.0 * params.aggregation.default_min_partner_fraction();
-        let (response, is_reset) = Slid {
+        let (response, _) = Slid {
             label: "Least partners",
             tip: "The least share of points with a visible partner (Eq. 14) that lets a plane win, in percent. \
                   Ours: the paper has none, which is 0 %. Takes effect at once.",
@@ -121,10 +124,10 @@ pub(super) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
             },
             usual: 0.0..=100.0,
             step: 1.0,
-            reset: None,
+            logarithmic: false,
+            differs: false,
         }
         .show(ui, &mut percent);
-        debug_assert!(!is_reset);
         if percent != before {
             // A whole default stays the very number, so that the preset is known again.
             params.min_partner_fraction = if (percent - usual).abs() < 1e-9 {

@@ -1,0 +1,7 @@
+//! Axes to and from other programs: a table, and 3D Slicer's markup lines. Bytes in, bytes out.
+
+mod slicer;
+mod table;
+
+pub use slicer::{Placement, SlicerError, SlicerFrame, SlicerLine, place, read_lines, write_line};
+pub use table::{ImportedRow, TableError, read_table, write_table};

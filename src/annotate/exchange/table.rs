@@ -1,0 +1,185 @@
+//! Annotations as CSV: a row an annotator and cloud.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::annotate::{Annotation, Confidence, Ends, Finding, Judgment, Method, Role};
+use crate::geometry::Unit;
+
+/// Why a table is not understood.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    /// It is no CSV, lacks a column, or has something else in a field.
+    #[error("{0}")]
+    Csv(#[from] csv::Error),
+    /// A row says nothing that can be used.
+    #[error("row {row}: {reason}")]
+    Row {
+        /// Its number, from 1 after the head line.
+        row: usize,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// One row. Only the file, the annotator and the ends have to be there.
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct Fields {
+    file: String,
+    #[serde(default)]
+    sha256: Option<String>,
+    annotator: String,
+    #[serde(default)]
+    role: Option<Role>,
+    peduncle_base_x: Option<f64>,
+    peduncle_base_y: Option<f64>,
+    peduncle_base_z: Option<f64>,
+    blossom_end_x: Option<f64>,
+    blossom_end_y: Option<f64>,
+    blossom_end_z: Option<f64>,
+    #[serde(default)]
+    unit: Option<Unit>,
+    #[serde(default)]
+    cannot_tell: Option<bool>,
+    #[serde(default)]
+    method: Option<Method>,
+    #[serde(default)]
+    confidence: Option<f64>,
+    #[serde(default)]
+    note: Option<String>,
+    #[serde(default)]
+    blind: Option<bool>,
+    #[serde(default)]
+    created: Option<String>,
+    #[serde(default)]
+    modified: Option<String>,
+}
+
+/// A row that was read, for a cloud that the caller finds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportedRow {
+    /// The cloud's file within the folder.
+    pub file: String,
+    /// The hash of the cloud that it was made for, where the table says.
+    pub sha256: Option<String>,
+    /// Who set the axis.
+    pub annotator: String,
+    /// In which role; an annotator's where the table does not say.
+    pub role: Role,
+    /// The unit of the ends; the cloud's where the table does not say.
+    pub unit: Option<Unit>,
+    /// What was decided; [`Method::Imported`] where the table does not say how.
+    pub judgment: Judgment,
+}
+
+impl ImportedRow {
+    /// The judgment with its ends in the cloud's unit.
+    ///
+    /// # Errors
+    /// Where the conversion leaves no axis.
+    pub fn in_unit(&self, unit: Unit) -> Result<Judgment, crate::annotate::EndsError> {
+        let mut judgment = self.judgment.clone();
+        if let (Finding::Axis(ends), Some(own)) = (judgment.finding, self.unit)
+            && own != unit
+        {
+            let scale = own.in_cm() / unit.in_cm();
+            judgment.finding = Finding::Axis(Ends::new(
+                ends.peduncle_base() * scale,
+                ends.blossom_end() * scale,
+            )?);
+        }
+        Ok(judgment)
+    }
+}
+
+/// The annotations as CSV with a head line; each with the name of its cloud's file.
+///
+/// # Errors
+/// Where memory runs out.
+pub fn write_table<'a>(
+    annotations: impl IntoIterator<Item = (&'a str, &'a Annotation)>,
+) -> Result<Vec<u8>, TableError> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    for (file, annotation) in annotations {
+        let ends = annotation.ends();
+        let base = ends.map(Ends::peduncle_base);
+        let blossom = ends.map(Ends::blossom_end);
+        let judgment = &annotation.judgment;
+        table.serialize(Fields {
+            file: file.into(),
+            sha256: Some(annotation.cloud.sha256.clone()),
+            annotator: annotation.annotator.clone(),
+            role: Some(annotation.role),
+            peduncle_base_x: base.map(|p| p.x),
+            peduncle_base_y: base.map(|p| p.y),
+            peduncle_base_z: base.map(|p| p.z),
+            blossom_end_x: blossom.map(|p| p.x),
+            blossom_end_y: blossom.map(|p| p.y),
+            blossom_end_z: blossom.map(|p| p.z),
+            unit: Some(annotation.unit),
+            cannot_tell: Some(ends.is_none()),
+            method: Some(judgment.method),
+            confidence: judgment.confidence.map(Confidence::value),
+            note: Some(judgment.note.clone()),
+            blind: Some(judgment.blind),
+            created: Some(annotation.created.clone()),
+            modified: Some(annotation.modified.clone()),
+        })?;
+    }
+    table
+        .into_inner()
+        .map_err(|error| TableError::Csv(error.into_error().into()))
+}
+
+/// Reads a table: the columns `file`, `annotator`, `peduncle_base_x` … `blossom_end_z`, and as many of
+/// the others that [`write_table`] writes as there are.
+///
+/// # Errors
+/// Where it is no such table, or a row has neither an axis nor says that it cannot be told.
+pub fn read_table(bytes: &[u8]) -> Result<Vec<ImportedRow>, TableError> {
+    // Spreadsheets begin their files with a byte-order mark.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+    let mut rows = Vec::new();
+    for (i, fields) in reader.deserialize::<Fields>().enumerate() {
+        let row = i + 1;
+        rows.push(imported(fields?).map_err(|reason| TableError::Row { row, reason })?);
+    }
+    Ok(rows)
+}
+
+fn imported(fields: Fields) -> Result<ImportedRow, String> {
+    let point = |x: Option<f64>, y: Option<f64>, z: Option<f64>| Some(DVec3::new(x?, y?, z?));
+    let base = point(
+        fields.peduncle_base_x,
+        fields.peduncle_base_y,
+        fields.peduncle_base_z,
+    );
+    let blossom = point(fields.blossom_end_x, fields.blossom_end_y, fields.blossom_end_z);
+    let finding = match (base, blossom, fields.cannot_tell.unwrap_or(false)) {
+        (Some(base), Some(blossom), false) => {
+            Finding::Axis(Ends::new(base, blossom).map_err(|error| error.to_string())?)
+        }
+        (None, None, true) => Finding::CannotTell,
+        (_, _, true) => return Err("it has an end, and says that none can be told".into()),
+        (_, _, false) => return Err("an end is missing, and it does not say that none can be told".into()),
+    };
+    let confidence = match fields.confidence {
+        None => None,
+        Some(value) => Some(Confidence::new(value).ok_or("its confidence is not from 0 to 1")?),
+    };
+    Ok(ImportedRow {
+        file: fields.file,
+        sha256: fields.sha256.filter(|hash| !hash.is_empty()),
+        annotator: fields.annotator,
+        role: fields.role.unwrap_or(Role::Annotator),
+        unit: fields.unit,
+        judgment: Judgment {
+            finding,
+            method: fields.method.unwrap_or(Method::Imported),
+            confidence,
+            note: fields.note.unwrap_or_default(),
+            blind: fields.blind.unwrap_or(false),
+        },
+    })
+}

@@ -1,0 +1,206 @@
+//! The format of an axis file, `axiscope.axis/1` (assets/axis.schema.json), read strictly: a file that
+//! is understood in part would lose the rest when it is written again.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::{Annotation, CloudId, Confidence, Ends, EndsError, Finding, Judgment, Method, Role, is_rfc3339};
+use crate::geometry::{Unit, angle_between_directions_rad};
+
+/// The name of the format, without its version.
+const FORMAT: &str = "axiscope.axis/";
+/// The version that is written, and the newest that is read.
+const VERSION: u32 = 1;
+/// The longest file that is read. Ours have a thousand bytes, a long note aside.
+pub const LONGEST_FILE: u64 = 1 << 20;
+
+/// Why an axis file is not understood.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum FileError {
+    /// It is no JSON, or has other fields, or another type in one.
+    #[error("it is no axis file: {0}")]
+    Malformed(String),
+    /// A newer program wrote it.
+    #[error("it is of version {version} of the format, and this program knows version {VERSION}")]
+    Newer {
+        /// Its version.
+        version: u32,
+    },
+    /// Both ends are no axis.
+    #[error("its ends are no axis: {0}")]
+    Ends(#[from] EndsError),
+    /// Fields say different things.
+    #[error("it contradicts itself: {0}")]
+    Contradiction(&'static str),
+}
+
+/// The fields in their order.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Fields {
+    schema: String,
+    program: String,
+    cloud: CloudId,
+    unit: Unit,
+    frame: Frame,
+    annotator: String,
+    role: Role,
+    cannot_tell: bool,
+    // Named so, a field may be null, but not missing.
+    #[serde(deserialize_with = "Option::deserialize")]
+    peduncle_base: Option<DVec3>,
+    #[serde(deserialize_with = "Option::deserialize")]
+    blossom_end: Option<DVec3>,
+    #[serde(deserialize_with = "Option::deserialize")]
+    direction: Option<DVec3>,
+    method: Method,
+    #[serde(deserialize_with = "Option::deserialize")]
+    confidence: Option<f64>,
+    note: String,
+    blind: bool,
+    created: String,
+    modified: String,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Frame {
+    /// The coordinates of the cloud's file.
+    File,
+}
+
+/// What is read whatever the version.
+#[derive(Deserialize)]
+struct Head {
+    schema: String,
+}
+
+impl Annotation {
+    /// The content of the axis file.
+    pub fn to_json(&self) -> String {
+        // Strings and finite numbers cannot fail to become JSON.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// Reads an axis file.
+    ///
+    /// # Errors
+    /// Where it is of a newer version, is no such file, or contradicts itself.
+    pub fn from_json(text: &[u8]) -> Result<Self, FileError> {
+        let malformed = |error: serde_json::Error| FileError::Malformed(error.to_string());
+        let head: Head = serde_json::from_slice(text).map_err(malformed)?;
+        let version = head.schema.strip_prefix(FORMAT).and_then(|v| v.parse().ok());
+        match version {
+            Some(VERSION) => {}
+            Some(version) if version > VERSION => return Err(FileError::Newer { version }),
+            _ => {
+                let text = format!("its schema is {:?}, not {FORMAT}{VERSION}", head.schema);
+                return Err(FileError::Malformed(text));
+            }
+        }
+        let fields: Fields = serde_json::from_slice(text).map_err(malformed)?;
+        fields.try_into()
+    }
+
+    fn fields(&self) -> Fields {
+        let Judgment {
+            finding,
+            method,
+            confidence,
+            note,
+            blind,
+        } = self.judgment.clone();
+        let ends = match finding {
+            Finding::Axis(ends) => Some(ends),
+            Finding::CannotTell => None,
+        };
+        Fields {
+            schema: format!("{FORMAT}{VERSION}"),
+            program: self.program.clone(),
+            cloud: self.cloud.clone(),
+            unit: self.unit,
+            frame: Frame::File,
+            annotator: self.annotator.clone(),
+            role: self.role,
+            cannot_tell: ends.is_none(),
+            peduncle_base: ends.map(|e| e.peduncle_base()),
+            blossom_end: ends.map(|e| e.blossom_end()),
+            direction: ends.map(|e| e.direction()),
+            method,
+            confidence: confidence.map(Confidence::value),
+            note,
+            blind,
+            created: self.created.clone(),
+            modified: self.modified.clone(),
+        }
+    }
+}
+
+/// Half a thousandth of a degree: a direction written with few digits still agrees with its ends.
+const SAME_DIRECTION_RAD: f64 = 1e-5;
+
+impl TryFrom<Fields> for Annotation {
+    type Error = FileError;
+
+    fn try_from(fields: Fields) -> Result<Self, FileError> {
+        let finding = match (fields.cannot_tell, fields.peduncle_base, fields.blossom_end) {
+            (false, Some(base), Some(blossom)) => Finding::Axis(Ends::new(base, blossom)?),
+            (true, None, None) => Finding::CannotTell,
+            (true, ..) => return Err(FileError::Contradiction("it has an end, and none can be told")),
+            (false, ..) => return Err(FileError::Contradiction("an end is missing")),
+        };
+        let agrees = match (&finding, fields.direction) {
+            (Finding::Axis(ends), Some(direction)) => {
+                angle_between_directions_rad(ends.direction(), direction) < SAME_DIRECTION_RAD
+            }
+            (Finding::CannotTell, None) => true,
+            _ => false,
+        };
+        if !agrees {
+            return Err(FileError::Contradiction("its direction is not that of its ends"));
+        }
+        let confidence = match fields.confidence {
+            None => None,
+            Some(value) => Some(
+                Confidence::new(value)
+                    .ok_or(FileError::Contradiction("its confidence is not from 0 to 1"))?,
+            ),
+        };
+        if !is_rfc3339(&fields.created) || !is_rfc3339(&fields.modified) {
+            return Err(FileError::Contradiction("a time of it is no time (RFC 3339)"));
+        }
+        Ok(Self {
+            cloud: fields.cloud,
+            unit: fields.unit,
+            annotator: fields.annotator,
+            role: fields.role,
+            judgment: Judgment {
+                finding,
+                method: fields.method,
+                confidence,
+                note: fields.note,
+                blind: fields.blind,
+            },
+            created: fields.created,
+            modified: fields.modified,
+            program: fields.program,
+        })
+    }
+}
+
+impl Serialize for Annotation {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.fields().serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Annotation {
+    /// Of this version alone; [`Annotation::from_json`] tells newer ones from malformed ones.
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let fields = Fields::deserialize(deserializer)?;
+        if fields.schema != format!("{FORMAT}{VERSION}") {
+            return Err(serde::de::Error::custom("another version of the format"));
+        }
+        fields.try_into().map_err(serde::de::Error::custom)
+    }
+}

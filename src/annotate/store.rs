@@ -1,0 +1,489 @@
+//! One annotator's axis of one cloud, kept so that nothing is lost that was said to be saved.
+//!
+//! An edit goes to the end of the journal first, then into the axis file, which is written aside and
+//! renamed. Only then is it saved. What cannot be written stays here and is tried again with the next
+//! edit. Everything that touches a disk is behind [`Files`].
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::journal::{Deed, Journal, JournalError, deed_line, head_line, read_journal};
+use super::{Annotation, Author, CloudId, FileError, History, Judgment, LONGEST_FILE, Method};
+use crate::geometry::Unit;
+
+/// What a store asks of a disk.
+pub trait Files: Send {
+    /// The whole file; `None` where there is none.
+    ///
+    /// # Errors
+    /// The system's, and where the file is longer than `longest` bytes or no regular file.
+    fn read(&mut self, path: &Path, longest: u64) -> io::Result<Option<Vec<u8>>>;
+    /// Keeps an existing journal for this program alone, as long as `self` lives.
+    ///
+    /// # Errors
+    /// The system's; [`io::ErrorKind::ResourceBusy`] where another program has it.
+    fn claim(&mut self, path: &Path) -> io::Result<()>;
+    /// Writes at byte `at` of a journal, dropping what stands behind it, and returns once it is on the
+    /// disk. At 0 a journal that was not claimed is made.
+    ///
+    /// # Errors
+    /// The system's; [`io::ErrorKind::AlreadyExists`] where another program made it meanwhile.
+    fn append(&mut self, path: &Path, at: u64, bytes: &[u8]) -> io::Result<()>;
+    /// Puts a whole file in place at once, and returns once it is on the disk: at any moment there is
+    /// either the old one or the new one.
+    ///
+    /// # Errors
+    /// The system's.
+    fn replace(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
+    /// Removes a file that may be missing.
+    ///
+    /// # Errors
+    /// The system's.
+    fn remove(&mut self, path: &Path) -> io::Result<()>;
+    /// Nothing, where a file could be put there.
+    ///
+    /// # Errors
+    /// The system's, where it could not.
+    fn probe(&mut self, path: &Path) -> io::Result<()>;
+}
+
+/// Why an edit is not saved, or a store cannot be opened. One sentence that names the file.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The system failed.
+    #[error("{}: {error}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// Another program is annotating.
+    #[error("{}: another program is annotating this cloud under this name", path.display())]
+    InUse {
+        /// The journal.
+        path: PathBuf,
+    },
+    /// Every name is taken by files that must not be touched.
+    #[error("{}: this and all further copies are taken by other files", path.display())]
+    NoName {
+        /// The first.
+        path: PathBuf,
+    },
+}
+
+/// What an annotator ought to know about the files, in one sentence each.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Notice {
+    /// A file was left alone, and another is written instead.
+    KeptBeside {
+        /// The file that is not touched.
+        kept: PathBuf,
+        /// Why.
+        reason: String,
+        /// What is written instead.
+        instead: PathBuf,
+    },
+    /// The axis file was older than the journal, or gone, and was written again.
+    Restored(PathBuf),
+    /// The axis file had been changed by another program; that is now the newest edit.
+    TakenIn(PathBuf),
+    /// The journal ends in a line that was cut short: an edit that was never said to be saved.
+    CutShort(PathBuf),
+}
+
+impl std::fmt::Display for Notice {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::KeptBeside {
+                kept,
+                reason,
+                instead,
+            } => write!(
+                f,
+                "{} is left as it is, since {reason}; {} is written instead.",
+                kept.display(),
+                instead.file_name().unwrap_or_default().display()
+            ),
+            Self::Restored(path) => write!(f, "{} was written again from its journal.", path.display()),
+            Self::TakenIn(path) => write!(
+                f,
+                "{} was changed by another program: that is now the newest edit.",
+                path.display()
+            ),
+            Self::CutShort(path) => write!(
+                f,
+                "{} ends in a line that was cut short, an edit that had not been saved.",
+                path.display()
+            ),
+        }
+    }
+}
+
+/// How many names are tried.
+const COPIES: u32 = 99;
+
+/// One annotator's axis of one cloud, with its history and its files.
+pub struct Store {
+    files: Box<dyn Files>,
+    cloud_path: PathBuf,
+    cloud: CloudId,
+    unit: Unit,
+    author: Author,
+    history: History,
+    deeds: u64,
+    journal: PathBuf,
+    /// Bytes of the journal that are on the disk.
+    journal_length: u64,
+    /// Lines that are not.
+    pending: Vec<u8>,
+    axis: PathBuf,
+    /// What the axis file held when it was last looked at.
+    axis_bytes: Option<Vec<u8>>,
+    notices: Vec<Notice>,
+}
+
+/// A name that was tried: nothing there, one of ours, or one that must not be touched.
+enum Slot<T> {
+    Free,
+    Ours(T),
+    Kept(String),
+}
+
+impl Store {
+    /// Opens the annotator's files beside a cloud. Nothing is written for an annotator who has said
+    /// nothing. `unit` is what the cloud's coordinates are taken for.
+    ///
+    /// Where the files cannot be written, the store opens all the same, and `Err` is the second value:
+    /// to be told at once. Its edits then wait for [`Store::save`].
+    ///
+    /// # Errors
+    /// Where another program has the journal, or no name is free.
+    pub fn open(
+        mut files: Box<dyn Files>,
+        cloud_path: &Path,
+        cloud: CloudId,
+        unit: Unit,
+        author: Author,
+    ) -> Result<(Self, Result<(), StoreError>), StoreError> {
+        let (journal, read, mut kept) = find_journal(&mut *files, cloud_path, &cloud, &author)?;
+        let is_axis = |bytes: Vec<u8>| axis_of(&bytes, &cloud, &author).map(|axis| (axis, bytes));
+        let (axis, found) = choose(
+            |copy| author.axis_path(cloud_path, copy),
+            |path| slot(files.read(path, LONGEST_FILE), is_axis),
+            &mut kept,
+        )?;
+        let mut notices = kept;
+        if read.is_cut_short {
+            notices.push(Notice::CutShort(journal.clone()));
+        }
+        let mut store = Self {
+            files,
+            cloud_path: cloud_path.into(),
+            cloud,
+            unit,
+            author,
+            history: read.history,
+            deeds: read.deeds,
+            journal,
+            journal_length: read.length,
+            pending: Vec::new(),
+            axis,
+            axis_bytes: None,
+            notices,
+        };
+        if let Some((found, bytes)) = found {
+            store.axis_bytes = Some(bytes);
+            store.take_in(found);
+        }
+        let writable = store.make_good();
+        Ok((store, writable))
+    }
+
+    /// The cloud.
+    pub fn cloud(&self) -> &CloudId {
+        &self.cloud
+    }
+
+    /// Whose axis it is.
+    pub fn author(&self) -> &Author {
+        &self.author
+    }
+
+    /// What holds now, saved or not; `None` where nothing has been said, or all was undone.
+    pub fn current(&self) -> Option<&Annotation> {
+        self.history.current()
+    }
+
+    /// What can be undone and done again.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// The number of edits, undos and redos so far, from the first one on: each that is saved has its
+    /// own, for good.
+    pub fn deeds(&self) -> u64 {
+        self.deeds
+    }
+
+    /// Whether all of it is on the disk.
+    pub fn is_saved(&self) -> bool {
+        self.pending.is_empty() && self.axis_bytes == self.wanted()
+    }
+
+    /// The axis file.
+    pub fn axis_path(&self) -> &Path {
+        &self.axis
+    }
+
+    /// The journal.
+    pub fn journal_path(&self) -> &Path {
+        &self.journal
+    }
+
+    /// What the annotator ought to know about the files.
+    pub fn notices(&self) -> &[Notice] {
+        &self.notices
+    }
+
+    /// A new state. `now` is the time (RFC 3339, as [`super::rfc3339`] gives it). `Ok` says that it is on
+    /// the disk.
+    ///
+    /// # Errors
+    /// Where it is not: the edit holds all the same, and is saved with the next one or by [`Store::save`].
+    pub fn edit(&mut self, mut judgment: Judgment, now: &str) -> Result<(), StoreError> {
+        self.look_again();
+        // What was seen once cannot be unseen: undone edits count.
+        let mut before = self.history.ever().iter();
+        judgment.blind &= judgment.method == Method::ByHand && before.all(|state| state.judgment.blind);
+        let created = self.history.ever().first().map(|first| first.created.clone());
+        let state = Annotation {
+            cloud: self.cloud.clone(),
+            unit: self.unit,
+            annotator: self.author.name().into(),
+            role: self.author.role(),
+            judgment,
+            created: created.unwrap_or_else(|| now.into()),
+            modified: now.into(),
+            program: concat!("axiscope ", env!("CARGO_PKG_VERSION")).into(),
+        };
+        self.push(state, now);
+        self.save()
+    }
+
+    /// Back by one edit. Whether there was one.
+    ///
+    /// # Errors
+    /// Where that is not on the disk, as for [`Store::edit`].
+    pub fn undo(&mut self, now: &str) -> Result<bool, StoreError> {
+        self.look_again();
+        let could = self.history.undo();
+        if could {
+            self.journal_deed(Deed::Undo, now);
+        }
+        self.save().map(|()| could)
+    }
+
+    /// Forward by one edit. Whether there was one.
+    ///
+    /// # Errors
+    /// Where that is not on the disk, as for [`Store::edit`].
+    pub fn redo(&mut self, now: &str) -> Result<bool, StoreError> {
+        self.look_again();
+        let could = self.history.redo();
+        if could {
+            self.journal_deed(Deed::Redo, now);
+        }
+        self.save().map(|()| could)
+    }
+
+    /// Writes what is not yet on the disk, if anything.
+    ///
+    /// # Errors
+    /// Where it cannot be written; nothing is lost as long as the store lives.
+    pub fn save(&mut self) -> Result<(), StoreError> {
+        if !self.pending.is_empty() {
+            let mut bytes = if self.journal_length == 0 {
+                head_line(&self.cloud.sha256, &self.author)
+            } else {
+                Vec::new()
+            };
+            bytes.extend_from_slice(&self.pending);
+            let appended = self.files.append(&self.journal, self.journal_length, &bytes);
+            appended.map_err(|error| failed(&self.journal, error))?;
+            self.journal_length += bytes.len() as u64;
+            self.pending.clear();
+        }
+        let wanted = self.wanted();
+        if self.axis_bytes != wanted {
+            let written = match &wanted {
+                Some(bytes) => self.files.replace(&self.axis, bytes),
+                None => self.files.remove(&self.axis),
+            };
+            written.map_err(|error| failed(&self.axis, error))?;
+            self.axis_bytes = wanted;
+        }
+        Ok(())
+    }
+
+    /// What the axis file ought to hold.
+    fn wanted(&self) -> Option<Vec<u8>> {
+        self.history.current().map(|state| state.to_json().into_bytes())
+    }
+
+    fn push(&mut self, state: Annotation, now: &str) {
+        self.history.push(state.clone());
+        self.journal_deed(Deed::Edit(Box::new(state)), now);
+    }
+
+    fn journal_deed(&mut self, deed: Deed, now: &str) {
+        self.deeds += 1;
+        self.pending.extend(deed_line(self.deeds, now, deed));
+    }
+
+    /// Another program's state of the axis file becomes the newest edit, unless it was ours once: then
+    /// the program died before it had replaced the file.
+    fn take_in(&mut self, found: Annotation) {
+        if !self.history.ever().contains(&found) {
+            let when = found.modified.clone();
+            self.push(found, &when);
+            self.notices.push(Notice::TakenIn(self.axis.clone()));
+        }
+    }
+
+    /// After opening: the axis file as the journal has it.
+    fn make_good(&mut self) -> Result<(), StoreError> {
+        let is_behind = self.pending.is_empty() && self.axis_bytes != self.wanted();
+        self.files
+            .probe(&self.axis)
+            .map_err(|error| failed(&self.axis, error))?;
+        self.save()?;
+        if is_behind {
+            self.notices.push(Notice::Restored(self.axis.clone()));
+        }
+        Ok(())
+    }
+
+    /// Before the axis file is written: somebody else may have. What cannot be told now shows when the
+    /// file is written.
+    fn look_again(&mut self) {
+        let Ok(bytes) = self.files.read(&self.axis, LONGEST_FILE) else {
+            return;
+        };
+        if bytes == self.axis_bytes {
+            return;
+        }
+        let Some(bytes) = bytes else {
+            self.axis_bytes = None;
+            return;
+        };
+        match axis_of(&bytes, &self.cloud, &self.author) {
+            Ok(found) => {
+                self.axis_bytes = Some(bytes);
+                self.take_in(found);
+            }
+            Err(reason) => {
+                let kept = self.axis.clone();
+                let free = (2..=COPIES)
+                    .map(|copy| self.author.axis_path(&self.cloud_path, copy))
+                    .find(|path| matches!(self.files.read(path, LONGEST_FILE), Ok(None)));
+                // With no name free the file must still not be touched: an empty name is refused.
+                self.axis = free.unwrap_or_default();
+                self.axis_bytes = None;
+                let instead = self.axis.clone();
+                self.notices.push(Notice::KeptBeside {
+                    kept,
+                    reason,
+                    instead,
+                });
+            }
+        }
+    }
+}
+
+fn failed(path: &Path, error: io::Error) -> StoreError {
+    let path = path.to_owned();
+    match error.kind() {
+        io::ErrorKind::ResourceBusy | io::ErrorKind::AlreadyExists => StoreError::InUse { path },
+        _ => StoreError::Io { path, error },
+    }
+}
+
+/// The axis in a file, if it is this author's of this cloud; else why not.
+fn axis_of(bytes: &[u8], cloud: &CloudId, author: &Author) -> Result<Annotation, String> {
+    let axis = Annotation::from_json(bytes).map_err(|error: FileError| error.to_string())?;
+    if axis.cloud.sha256 != cloud.sha256 {
+        return Err("it belongs to another cloud".into());
+    }
+    if !axis.is_by(author) {
+        return Err(format!("it is {}'s", axis.annotator));
+    }
+    Ok(axis)
+}
+
+fn slot<T>(read: io::Result<Option<Vec<u8>>>, parse: impl Fn(Vec<u8>) -> Result<T, String>) -> Slot<T> {
+    match read {
+        Ok(None) => Slot::Free,
+        Ok(Some(bytes)) => parse(bytes).map_or_else(Slot::Kept, Slot::Ours),
+        Err(error) => Slot::Kept(format!("it cannot be read ({error})")),
+    }
+}
+
+/// The journal of this author for this cloud, claimed and read.
+fn find_journal(
+    files: &mut dyn Files,
+    cloud_path: &Path,
+    cloud: &CloudId,
+    author: &Author,
+) -> Result<(PathBuf, Journal, Vec<Notice>), StoreError> {
+    let parse = |bytes: Vec<u8>| {
+        read_journal(&bytes, &cloud.sha256, author).map_err(|error: JournalError| error.to_string())
+    };
+    let mut kept = Vec::new();
+    let name = |copy| author.journal_path(cloud_path, copy);
+    let (path, journal) = choose(name, |path| slot(files.read(path, u64::MAX), parse), &mut kept)?;
+    if journal.is_none() {
+        return Ok((path, Journal::default(), kept));
+    }
+    match files.claim(&path) {
+        Err(error) if error.kind() == io::ErrorKind::ResourceBusy => return Err(failed(&path, error)),
+        // Whether it can be written is told later; it can be read.
+        _ => {}
+    }
+    // Again, now that nobody else writes it.
+    let journal = match slot(files.read(&path, u64::MAX), parse) {
+        Slot::Ours(journal) => journal,
+        Slot::Free => Journal::default(),
+        Slot::Kept(reason) => {
+            let error = io::Error::other(reason);
+            return Err(StoreError::Io { path, error });
+        }
+    };
+    Ok((path, journal, kept))
+}
+
+/// The name to write under: the last that is ours already, else the first that is free.
+fn choose<T>(
+    name: impl Fn(u32) -> PathBuf,
+    mut look: impl FnMut(&Path) -> Slot<T>,
+    notices: &mut Vec<Notice>,
+) -> Result<(PathBuf, Option<T>), StoreError> {
+    let (mut ours, mut free, mut kept) = (None, None, Vec::new());
+    for path in (1..=COPIES).map(&name) {
+        match look(&path) {
+            Slot::Ours(content) => ours = Some((path, content)),
+            Slot::Free => free = free.or(Some(path)),
+            Slot::Kept(reason) => kept.push((path, reason)),
+        }
+    }
+    let (path, content) = match ours {
+        Some((path, content)) => (path, Some(content)),
+        None => (free.ok_or_else(|| StoreError::NoName { path: name(1) })?, None),
+    };
+    notices.extend(kept.into_iter().map(|(kept, reason)| Notice::KeptBeside {
+        kept,
+        reason,
+        instead: path.clone(),
+    }));
+    Ok((path, content))
+}

@@ -1,0 +1,209 @@
+//! One edit of an axis, as it stands on the command line or in a line of a script.
+
+use std::str::FromStr;
+
+use axiscope::annotate::{Annotation, Confidence, Ends, EndsError, Finding, Judgment, Method, Pivot};
+use clap::{ArgGroup, Args, ValueEnum};
+use glam::DVec3;
+
+use crate::cli::options::{number, position};
+
+/// What to change. Several changes at once are one edit; they are made in the order of this list.
+#[derive(Debug, Clone, Default, Args)]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "each is a flag of its own on the command line"
+)]
+#[command(next_help_heading = "Edit", group = ArgGroup::new("edit").multiple(true))]
+pub(super) struct Change {
+    /// Go back by one edit
+    #[arg(long, conflicts_with_all = ["redo", "edit"])]
+    pub(super) undo: bool,
+    /// Go forward again by one edit
+    #[arg(long, conflicts_with = "edit")]
+    pub(super) redo: bool,
+    /// The peduncle's base, in the file's unit and frame
+    #[arg(long, value_name = "X,Y,Z", group = "edit", value_parser = position, allow_hyphen_values = true, conflicts_with = "start")]
+    base: Option<DVec3>,
+    /// The blossom end
+    #[arg(long, value_name = "X,Y,Z", group = "edit", value_parser = position, allow_hyphen_values = true, conflicts_with = "start")]
+    blossom: Option<DVec3>,
+    /// Start from an axis that is known; this is recorded
+    #[arg(long, value_enum, group = "edit")]
+    start: Option<StartOption>,
+    /// Say that the axis cannot be told
+    #[arg(long, group = "edit", conflicts_with_all = ["base", "blossom", "start", "flip", "turn", "shift", "lengthen"])]
+    cannot_tell: bool,
+    /// Exchange the ends
+    #[arg(long, group = "edit")]
+    flip: bool,
+    /// Turn by DEG about a direction: lean (towards the viewer or away), picture (within the picture), or X,Y,Z
+    #[arg(long, value_name = "ABOUT=DEG", group = "edit", allow_hyphen_values = true)]
+    turn: Vec<Turn>,
+    /// Move the whole axis
+    #[arg(long, value_name = "X,Y,Z", group = "edit", value_parser = position, allow_hyphen_values = true)]
+    shift: Option<DVec3>,
+    /// Make it longer by so much, or shorter
+    #[arg(long, value_name = "L", group = "edit", value_parser = number, allow_negative_numbers = true)]
+    lengthen: Option<f64>,
+    /// What stays in place when it is turned or lengthened
+    #[arg(long, value_enum, default_value = "middle")]
+    hold: HoldOption,
+    /// How sure you are: 0 to 1, or low, medium, high (0.25, 0.5, 0.75)
+    #[arg(long, value_name = "SURE", group = "edit", value_parser = confidence)]
+    confidence: Option<Confidence>,
+    /// Anything else
+    #[arg(long, value_name = "TEXT", group = "edit")]
+    note: Option<String>,
+    /// Record that nothing computed was seen
+    #[arg(long, requires = "edit")]
+    blind: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+pub(super) enum StartOption {
+    /// From the peduncle's axis
+    Peduncle,
+    /// From the axis that the method computes
+    Computed,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, ValueEnum)]
+enum HoldOption {
+    /// Its middle
+    #[default]
+    Middle,
+    /// The peduncle's base
+    Base,
+    /// The blossom end
+    Blossom,
+}
+
+/// A turn by degrees about a direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Turn {
+    about: About,
+    degrees: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum About {
+    Lean,
+    Picture,
+    Direction(DVec3),
+}
+
+impl FromStr for Turn {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (about, degrees) = text
+            .split_once('=')
+            .ok_or("expected lean=DEG, picture=DEG or X,Y,Z=DEG")?;
+        Ok(Self {
+            about: match about {
+                "lean" => About::Lean,
+                "picture" => About::Picture,
+                _ => {
+                    About::Direction(position(about).map_err(|_| "expected lean, picture or X,Y,Z before =")?)
+                }
+            },
+            degrees: number(degrees)?,
+        })
+    }
+}
+
+fn confidence(text: &str) -> Result<Confidence, String> {
+    match text {
+        "low" => Ok(Confidence::LOW),
+        "medium" => Ok(Confidence::MEDIUM),
+        "high" => Ok(Confidence::HIGH),
+        _ => Confidence::new(number(text)?).ok_or_else(|| "expected 0 to 1, or low, medium, high".into()),
+    }
+}
+
+impl Change {
+    /// Whether anything is to be edited, undone or redone.
+    pub(super) fn is_any(&self) -> bool {
+        let moves = self.flip || !self.turn.is_empty() || self.shift.is_some() || self.lengthen.is_some();
+        let ends = self.base.is_some() || self.blossom.is_some() || self.start.is_some() || self.cannot_tell;
+        self.undo || self.redo || moves || ends || self.confidence.is_some() || self.note.is_some()
+    }
+
+    /// What it makes of the present state. `start` gives the axis to start from, `viewpoint` is where the
+    /// camera is.
+    pub(super) fn judgment(
+        &self,
+        current: Option<&Annotation>,
+        viewpoint: DVec3,
+        start: impl FnOnce(Method) -> anyhow::Result<Ends>,
+    ) -> anyhow::Result<Judgment> {
+        let before = current.map(|annotation| annotation.judgment.clone());
+        let known = current.and_then(Annotation::ends).copied();
+        let (method, mut ends) = match (self.start, self.base, self.blossom) {
+            (Some(StartOption::Peduncle), ..) => (Method::FromPeduncle, Some(start(Method::FromPeduncle)?)),
+            (Some(StartOption::Computed), ..) => (Method::FromComputed, Some(start(Method::FromComputed)?)),
+            // Both ends anew: this does not follow from what was there.
+            (None, Some(base), Some(blossom)) => (Method::ByHand, Some(Ends::new(base, blossom)?)),
+            (None, base, blossom) => {
+                let mut ends = known;
+                if base.is_some() || blossom.is_some() {
+                    let known = known.ok_or_else(no_axis)?;
+                    ends = Some(Ends::new(
+                        base.unwrap_or(known.peduncle_base()),
+                        blossom.unwrap_or(known.blossom_end()),
+                    )?);
+                }
+                (before.as_ref().map_or(Method::ByHand, |b| b.method), ends)
+            }
+        };
+        if self.flip || !self.turn.is_empty() || self.shift.is_some() || self.lengthen.is_some() {
+            ends = Some(self.moved(ends.ok_or_else(no_axis)?, viewpoint)?);
+        }
+        let finding = match ends {
+            _ if self.cannot_tell => Finding::CannotTell,
+            Some(ends) => Finding::Axis(ends),
+            None if before.is_some() => Finding::CannotTell,
+            None => return Err(no_axis()),
+        };
+        let (confidence, note) = before.map_or((None, String::new()), |b| (b.confidence, b.note));
+        Ok(Judgment {
+            finding,
+            method: if self.cannot_tell { Method::ByHand } else { method },
+            confidence: self.confidence.or(confidence),
+            note: self.note.clone().unwrap_or(note),
+            blind: self.blind,
+        })
+    }
+
+    fn moved(&self, mut ends: Ends, viewpoint: DVec3) -> Result<Ends, EndsError> {
+        let pivot = match self.hold {
+            HoldOption::Middle => Pivot::Middle,
+            HoldOption::Base => Pivot::PeduncleBase,
+            HoldOption::Blossom => Pivot::BlossomEnd,
+        };
+        if self.flip {
+            ends = ends.flipped();
+        }
+        for turn in &self.turn {
+            let [lean, picture] = ends.across(ends.middle() - viewpoint);
+            let about = match turn.about {
+                About::Lean => lean,
+                About::Picture => picture,
+                About::Direction(direction) => direction,
+            };
+            ends = ends.turned(about, turn.degrees, pivot)?;
+        }
+        if let Some(by) = self.shift {
+            ends = ends.shifted(by)?;
+        }
+        if let Some(by) = self.lengthen {
+            ends = ends.lengthened(by, pivot)?;
+        }
+        Ok(ends)
+    }
+}
+
+fn no_axis() -> anyhow::Error {
+    anyhow::anyhow!("there is no axis yet to change: give both ends, or a start")
+}

@@ -1,0 +1,291 @@
+//! `axiscope annotate`: the true axis of one cloud, set by hand.
+
+mod change;
+mod script;
+
+use std::io::{BufRead, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use axiscope::annotate::exchange::{Placement, SlicerFrame, place, read_lines, write_line};
+use axiscope::annotate::{
+    Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError,
+};
+use axiscope::evaluate::{Examined, examine, start_axis};
+use axiscope::geometry::Extent;
+use axiscope::io::{DiskFiles, Fruit};
+use clap::{Args, ValueEnum};
+
+use super::options::AnalysisOptions;
+use super::progress::StageClock;
+use super::{now, usage_error};
+use change::Change;
+
+#[derive(Debug, Args)]
+pub(super) struct Annotate {
+    /// The point cloud (PLY)
+    cloud: PathBuf,
+    /// Who you are; the axis goes to CLOUD.NAME.axis.json
+    #[arg(long, value_name = "NAME")]
+    annotator: String,
+    /// Decide between the annotators: the axis that counts, in CLOUD.adjudicated.axis.json
+    #[arg(long)]
+    adjudicate: bool,
+    #[command(flatten)]
+    change: Change,
+    /// Read edits, one a line as they would stand here, from a file, or from standard input (-); each is
+    /// answered with `saved N` once it is on the disk
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["edit", "undo", "redo", "import"])]
+    script: Option<PathBuf>,
+    /// Take the axis from a line of 3D Slicer's (.mrk.json), drawn from the peduncle's base to the blossom end
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["edit", "undo", "redo"])]
+    import: Option<PathBuf>,
+    /// Which line, where the file holds several
+    #[arg(long, value_name = "NAME", requires = "import")]
+    line: Option<String>,
+    /// Also write the axis as a line for 3D Slicer
+    #[arg(long, value_name = "FILE")]
+    export: Option<PathBuf>,
+    /// In which of Slicer's frames the cloud is loaded there
+    #[arg(long, value_enum, default_value = "lps")]
+    slicer_frame: FrameOption,
+    /// The cloud is loaded in Slicer as it is, its numbers taken for millimeters, rather than converted
+    #[arg(long)]
+    slicer_as_is: bool,
+    /// How to print the axis
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+    #[command(flatten)]
+    analysis: AnalysisOptions,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+enum FrameOption {
+    /// Left, posterior, superior, Slicer's own choice for PLY files
+    Lps,
+    /// Right, anterior, superior
+    Ras,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    /// A few lines
+    Text,
+    /// The axis file (schema axiscope.axis/1), or null
+    Json,
+}
+
+pub(super) fn run(args: &Annotate) -> anyhow::Result<()> {
+    let author = if args.adjudicate {
+        Author::adjudicator(&args.annotator)
+    } else {
+        Author::annotator(&args.annotator)
+    };
+    let author = author.map_err(|error| usage_error(&error.to_string()))?;
+    let request = args.analysis.request();
+    let fruit = Fruit::read(&args.cloud, request.unit, &request.peduncle)?;
+    let (mut store, writable) = open(&args.cloud, &fruit, author)?;
+    let mut out = std::io::stdout().lock();
+    if let Some(script) = &args.script {
+        follow(args, script, &fruit, &mut store, &mut out)?;
+        return Ok(writable?);
+    }
+    if args.change.is_any() {
+        apply(args, &args.change, &fruit, &mut store)?;
+    } else if let Some(file) = &args.import {
+        import(args, file, &fruit, &mut store)?;
+    } else if let Err(error) = writable {
+        eprintln!("Warning: nothing can be saved here: {error}");
+    }
+    if let Some(file) = &args.export {
+        let ends = store.current().and_then(Annotation::ends).copied();
+        let ends = ends.context("there is no axis to export")?;
+        let text = write_line(&line_name(&store), &ends, fruit.unit, args.placement());
+        std::fs::write(file, text).with_context(|| file.display().to_string())?;
+    }
+    match args.format {
+        Format::Text => write_text(&mut out, &store)?,
+        Format::Json => writeln!(out, "{}", serde_json::to_string_pretty(&store.current())?)?,
+    }
+    Ok(())
+}
+
+/// Opens an annotator's files beside a cloud; what there is to know of them goes to standard error.
+pub(super) fn open(
+    cloud: &Path,
+    fruit: &Fruit,
+    author: Author,
+) -> anyhow::Result<(Store, Result<(), StoreError>)> {
+    let id = CloudId {
+        file: cloud.file_name().unwrap_or_default().to_string_lossy().into(),
+        sha256: fruit.file.sha256.clone(),
+    };
+    let (store, writable) = Store::open(Box::new(DiskFiles::default()), cloud, id, fruit.unit, author)?;
+    for notice in store.notices() {
+        eprintln!("Warning: {notice}");
+    }
+    Ok((store, writable))
+}
+
+/// One edit. Whether there was anything to undo or do again.
+fn apply(args: &Annotate, change: &Change, fruit: &Fruit, store: &mut Store) -> anyhow::Result<()> {
+    let known = store.notices().len();
+    let done = if change.undo {
+        store.undo(&now())
+    } else if change.redo {
+        store.redo(&now())
+    } else {
+        let viewpoint = args.analysis.viewpoint;
+        let judgment = change.judgment(store.current(), viewpoint, |method| start(args, fruit, method))?;
+        store.edit(judgment, &now()).map(|()| true)
+    };
+    for notice in &store.notices()[known..] {
+        eprintln!("Warning: {notice}");
+    }
+    let what = if change.undo { "undo" } else { "do again" };
+    anyhow::ensure!(done?, "there is nothing to {what}");
+    Ok(())
+}
+
+/// The axis to start from, which takes an analysis.
+fn start(args: &Annotate, fruit: &Fruit, method: Method) -> anyhow::Result<Ends> {
+    let clock = StageClock::new();
+    let examined = examine(fruit.clone(), &args.analysis.request(), &clock);
+    clock.finish();
+    let Examined {
+        fruit,
+        analysis,
+        references,
+        ..
+    } = examined.with_context(|| args.cloud.display().to_string())?;
+    Ok(start_axis(&fruit, &analysis, &references, method)?)
+}
+
+/// Edits by the line, each answered at once: `saved N`, `not saved: …` for one that holds and waits, or
+/// `refused: …` for one that is none.
+fn follow(
+    args: &Annotate,
+    script: &Path,
+    fruit: &Fruit,
+    store: &mut Store,
+    out: &mut impl Write,
+) -> anyhow::Result<()> {
+    let mut lines: Box<dyn BufRead> = if script == Path::new("-") {
+        Box::new(std::io::stdin().lock())
+    } else {
+        let file = std::fs::File::open(script).with_context(|| script.display().to_string())?;
+        Box::new(std::io::BufReader::new(file))
+    };
+    let (mut line, mut refused) = (String::new(), 0);
+    loop {
+        line.clear();
+        if lines
+            .read_line(&mut line)
+            .with_context(|| script.display().to_string())?
+            == 0
+        {
+            break;
+        }
+        let done = match script::change_of(&line) {
+            Ok(None) => continue,
+            Ok(Some(change)) => apply(args, &change, fruit, store),
+            Err(error) => Err(anyhow::anyhow!(error)),
+        };
+        match done {
+            Ok(()) => writeln!(out, "saved {}", store.deeds())?,
+            Err(error) if error.is::<StoreError>() => writeln!(out, "not saved: {error}")?,
+            Err(error) => {
+                refused += 1;
+                writeln!(out, "refused: {error}")?;
+            }
+        }
+        out.flush()?;
+    }
+    store.save()?;
+    anyhow::ensure!(refused == 0, "{refused} lines were refused");
+    Ok(())
+}
+
+impl Annotate {
+    fn placement(&self) -> Placement {
+        Placement {
+            frame: match self.slicer_frame {
+                FrameOption::Lps => SlicerFrame::Lps,
+                FrameOption::Ras => SlicerFrame::Ras,
+            },
+            numbers_as_they_are: self.slicer_as_is,
+        }
+    }
+}
+
+fn import(args: &Annotate, file: &Path, fruit: &Fruit, store: &mut Store) -> anyhow::Result<()> {
+    let named = || file.display().to_string();
+    let bytes = std::fs::read(file).with_context(named)?;
+    let lines = read_lines(&bytes).with_context(named)?;
+    let mut fitting = lines
+        .iter()
+        .filter(|line| args.line.as_ref().is_none_or(|name| *name == line.name));
+    let line = match (fitting.next(), fitting.next()) {
+        (Some(line), None) => line,
+        (None, _) => anyhow::bail!("{}: it holds no line of that name", named()),
+        _ => anyhow::bail!("{}: it holds several lines: choose one with --line", named()),
+    };
+    let extent = Extent::robust(fruit.cloud().positions()).context("the cloud has no points")?;
+    let ends = place(line, fruit.unit, &extent, args.placement()).with_context(named)?;
+    let judgment = Judgment {
+        method: Method::Imported,
+        ..Judgment::by_hand(ends)
+    };
+    Ok(store.edit(judgment, &now())?)
+}
+
+fn line_name(store: &Store) -> String {
+    let stem = Path::new(&store.cloud().file).file_stem().unwrap_or_default();
+    format!("{} {}", stem.to_string_lossy(), store.author().name())
+}
+
+fn write_text(out: &mut impl Write, store: &Store) -> std::io::Result<()> {
+    let mut row = |name: &str, value: &str| writeln!(out, "{name:<16}{value}");
+    let Some(annotation) = store.current() else {
+        return row("Axis", "none yet");
+    };
+    let judgment = &annotation.judgment;
+    match judgment.finding {
+        Finding::CannotTell => row("Axis", "cannot be told")?,
+        Finding::Axis(ends) => {
+            let unit = annotation.unit;
+            row("Peduncle base", &format!("{:.4} {unit}", ends.peduncle_base()))?;
+            row("Blossom end", &format!("{:.4} {unit}", ends.blossom_end()))?;
+            row(
+                "Direction",
+                &format!("{:.4}, length {:.4} {unit}", ends.direction(), ends.length()),
+            )?;
+        }
+    }
+    let blind = if judgment.blind { ", blind" } else { "" };
+    row("Method", &format!("{}{blind}", judgment.method.name()))?;
+    if let Some(confidence) = judgment.confidence {
+        row("Confidence", &confidence.value().to_string())?;
+    }
+    if !judgment.note.is_empty() {
+        row("Note", &judgment.note)?;
+    }
+    let role = match annotation.role {
+        Role::Annotator => "",
+        Role::Adjudicator => ", adjudicated",
+    };
+    row(
+        "Annotator",
+        &format!("{}{role}, {}", annotation.annotator, annotation.modified),
+    )?;
+    let history = store.history();
+    row(
+        "History",
+        &format!(
+            "{} to undo, {} to redo",
+            history.undo_steps(),
+            history.redo_steps()
+        ),
+    )?;
+    row("File", &store.axis_path().display().to_string())
+}

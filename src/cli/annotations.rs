@@ -1,0 +1,263 @@
+//! `axiscope annotations`: a folder's axes set by hand, and how far the annotators agree.
+
+use std::fmt::Write as _;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use axiscope::annotate::exchange::{ImportedRow, read_table, write_table};
+use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement};
+use axiscope::evaluate::Row;
+use axiscope::io::{Fruit, PeduncleChoice, annotation_paths, read_annotations, read_cloud};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+
+use super::annotate::open;
+use super::evaluate::clouds_in;
+use super::now;
+use super::options::{UnitOption, positive};
+
+#[derive(Debug, Args)]
+pub(super) struct Annotations {
+    /// The folder with the clouds (PLY) and the axis files beside them
+    folder: PathBuf,
+    /// How to print them
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+    /// From how many degrees on an annotator is far off
+    #[arg(long, value_name = "DEG", default_value_t = FAR_OFF_DEG, value_parser = positive)]
+    far_off: f64,
+    /// Also write every axis as CSV
+    #[arg(long, value_name = "FILE")]
+    export: Option<PathBuf>,
+    /// First take axes from CSV with an export's columns, at least the file, the annotator and both ends; each
+    /// becomes an edit that can be undone
+    #[arg(long, value_name = "FILE")]
+    import: Option<PathBuf>,
+    /// Unit of the clouds' coordinates
+    #[arg(long, value_enum, default_value = "auto")]
+    unit: UnitOption,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    /// Tables
+    Text,
+    /// One JSON object (schema axiscope.agreement/1)
+    Json,
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    schema: &'static str,
+    #[serde(flatten)]
+    agreement: &'a SetAgreement,
+    warnings: &'a [String],
+}
+
+pub(super) fn run(args: &Annotations) -> anyhow::Result<()> {
+    let clouds = clouds_in(&args.folder)?;
+    if let Some(table) = &args.import {
+        import(args, table, &clouds)?;
+    }
+    let (mut annotated, mut warnings) = (Vec::new(), Vec::new());
+    for path in &clouds {
+        let name = Row::name_in(&args.folder, path);
+        // Reading a cloud takes longer than knowing that nobody has said anything of it.
+        if annotation_paths(path).is_empty() {
+            annotated.push((name, Vec::new()));
+            continue;
+        }
+        match read_cloud(path) {
+            Ok(file) => {
+                let (annotations, unusable) = read_annotations(path, &file.sha256);
+                warnings.extend(unusable);
+                annotated.push((name, annotations));
+            }
+            Err(error) => warnings.push(format!("{error}.")),
+        }
+    }
+    for warning in &warnings {
+        eprintln!("Warning: {warning}");
+    }
+    if let Some(file) = &args.export {
+        let rows = annotated
+            .iter()
+            .flat_map(|(name, annotations)| annotations.iter().map(move |a| (name.as_str(), a)));
+        let table = write_table(rows)?;
+        std::fs::write(file, table).with_context(|| file.display().to_string())?;
+    }
+    let of =
+        |(name, annotations): &(String, Vec<Annotation>)| CloudAgreement::of(name, annotations, args.far_off);
+    let agreement = SetAgreement::of(annotated.iter().map(of).collect(), args.far_off);
+    let mut out = std::io::stdout().lock();
+    match args.format {
+        Format::Text => Ok(write_text(&mut out, &agreement)?),
+        Format::Json => {
+            let report = Report {
+                schema: "axiscope.agreement/1",
+                agreement: &agreement,
+                warnings: &warnings,
+            };
+            Ok(writeln!(out, "{}", serde_json::to_string_pretty(&report)?)?)
+        }
+    }
+}
+
+/// Every row is looked at before the first is written.
+fn import(args: &Annotations, table: &Path, clouds: &[PathBuf]) -> anyhow::Result<()> {
+    let named = || table.display().to_string();
+    let bytes = std::fs::read(table).with_context(named)?;
+    let rows = read_table(&bytes).with_context(named)?;
+    let mut ready = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        let of_row = || format!("{}: row {}", table.display(), i + 1);
+        ready.push(prepare(args, row, clouds).with_context(of_row)?);
+    }
+    let (mut taken, mut known) = (0, 0);
+    for (path, fruit, author, row) in ready {
+        let (mut store, writable) = open(path, &fruit, author)?;
+        writable?;
+        let judgment = row.in_unit(fruit.unit)?;
+        if store
+            .current()
+            .is_some_and(|current| current.judgment == judgment)
+        {
+            known += 1;
+        } else {
+            store.edit(judgment, &now())?;
+            taken += 1;
+        }
+    }
+    eprintln!("Took {taken} axes from {}; {known} were known.", table.display());
+    Ok(())
+}
+
+fn prepare<'a>(
+    args: &Annotations,
+    row: &'a ImportedRow,
+    clouds: &'a [PathBuf],
+) -> anyhow::Result<(&'a Path, Fruit, Author, &'a ImportedRow)> {
+    let author = match row.role {
+        Role::Annotator => Author::annotator(&row.annotator),
+        Role::Adjudicator => Author::adjudicator(&row.annotator),
+    }?;
+    // Only what lies in the folder: a table names files, and tables come from outside.
+    let path = clouds
+        .iter()
+        .find(|path| Row::name_in(&args.folder, path) == row.file)
+        .with_context(|| format!("there is no cloud {:?} in {}", row.file, args.folder.display()))?;
+    let fruit = Fruit::read(path, args.unit.unit(), &PeduncleChoice::None)?;
+    anyhow::ensure!(
+        row.sha256.as_ref().is_none_or(|hash| *hash == fruit.file.sha256),
+        "{} is not the cloud that this axis was set for",
+        path.display()
+    );
+    row.in_unit(fruit.unit)?;
+    Ok((path, fruit, author, row))
+}
+
+fn write_text(out: &mut impl Write, set: &SetAgreement) -> std::io::Result<()> {
+    let annotated = set.clouds.iter().filter(|c| !is_silent(c)).count();
+    writeln!(
+        out,
+        "{} clouds, {annotated} with an axis set by hand; far off means more than {}°",
+        set.clouds.len(),
+        set.far_off_deg
+    )?;
+    let mut worst: Vec<&CloudAgreement> = set.clouds.iter().filter(|c| !is_silent(c)).collect();
+    // Where they disagree most comes first.
+    worst.sort_by(|a, b| {
+        let of = |c: &CloudAgreement| c.largest_deg.unwrap_or(-1.0);
+        of(b).total_cmp(&of(a)).then_with(|| a.file.cmp(&b.file))
+    });
+    let degrees = |value: Option<f64>| value.map_or("–".into(), |v| format!("{v:.2}°"));
+    let mut table = vec![
+        [
+            "Cloud",
+            "Largest",
+            "Spread",
+            "Set by",
+            "Far off",
+            "Cannot tell",
+            "Decided by",
+        ]
+        .map(String::from),
+    ];
+    table.extend(worst.iter().map(|cloud| {
+        [
+            cloud.file.clone(),
+            degrees(cloud.largest_deg),
+            degrees(cloud.mean.as_ref().map(|m| m.spread_deg)),
+            list(&cloud.annotators),
+            list(&cloud.far_off),
+            list(&cloud.cannot_tell),
+            cloud.adjudicator.clone().unwrap_or("–".into()),
+        ]
+    }));
+    write_table_text(out, &table)?;
+    let mut table = vec![
+        [
+            "Annotator",
+            "Axes",
+            "Cannot tell",
+            "Far off",
+            "To the others",
+            "To the adjudicated",
+        ]
+        .map(String::from),
+    ];
+    table.extend(set.annotators.iter().map(|a| {
+        [
+            a.annotator.clone(),
+            a.clouds.to_string(),
+            a.cannot_tell.to_string(),
+            a.far_off.to_string(),
+            degrees(a.mean_deg),
+            degrees(a.to_adjudicated_deg),
+        ]
+    }));
+    write_table_text(out, &table)?;
+    let mut table = vec![["Pair", "Clouds", "Mean", "Largest", "Opposite ends"].map(String::from)];
+    table.extend(set.pairs.iter().map(|p| {
+        [
+            format!("{} and {}", p.a, p.b),
+            p.clouds.to_string(),
+            degrees(Some(p.mean_deg)),
+            degrees(Some(p.largest_deg)),
+            p.opposite.to_string(),
+        ]
+    }));
+    write_table_text(out, &table)
+}
+
+fn is_silent(cloud: &CloudAgreement) -> bool {
+    cloud.annotators.is_empty() && cloud.cannot_tell.is_empty() && cloud.adjudicator.is_none()
+}
+
+fn list(names: &[String]) -> String {
+    if names.is_empty() {
+        "–".into()
+    } else {
+        names.join(", ")
+    }
+}
+
+/// Columns under their heads; a table of its head alone is left out.
+fn write_table_text<const N: usize>(out: &mut impl Write, rows: &[[String; N]]) -> std::io::Result<()> {
+    if rows.len() < 2 {
+        return Ok(());
+    }
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
+    let widths: Vec<usize> = (0..N).map(|column| width(column).unwrap_or(0)).collect();
+    writeln!(out)?;
+    for row in rows {
+        let mut line = String::new();
+        for (cell, width) in row.iter().zip(&widths) {
+            // Writing to a string cannot fail.
+            let _ = write!(line, "{cell:<width$}  ");
+        }
+        writeln!(out, "{}", line.trim_end())?;
+    }
+    Ok(())
+}

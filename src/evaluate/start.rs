@@ -1,0 +1,53 @@
+//! Where an annotator may start from instead of nothing.
+
+use crate::annotate::{Ends, EndsError, Method};
+use crate::io::Fruit;
+use crate::method::{Analysis, AxisEstimate, AxisSource};
+
+/// Why there is nothing to start from. A clause.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum StartError {
+    /// No peduncle is known, or it gives no axis.
+    #[error("there is no peduncle's axis to start from")]
+    NoPeduncle,
+    /// The method found none.
+    #[error("there is no computed axis to start from")]
+    NoAxis,
+    /// An axis that is set by hand starts from nothing.
+    #[error("an axis set by hand starts from nothing")]
+    Nothing,
+    /// The fruit spans nothing along it.
+    #[error("the fruit has no extent along the axis to start from: {0}")]
+    Ends(#[from] EndsError),
+}
+
+/// The axis that an annotator starts from, as long as the fruit's body: the peduncle's
+/// ([`Method::FromPeduncle`]) or the method's own ([`Method::FromComputed`]). The latter has no sense; it
+/// is pointed to the peduncle where one is known, else up in the camera's frame, which is −y.
+///
+/// # Errors
+/// Where there is none.
+pub fn start_axis(
+    fruit: &Fruit,
+    analysis: &Analysis,
+    references: &[AxisEstimate],
+    method: Method,
+) -> Result<Ends, StartError> {
+    let (origin, direction) = match method {
+        Method::FromPeduncle => {
+            let axis = references.iter().find(|axis| axis.source == AxisSource::Peduncle);
+            let axis = axis.ok_or(StartError::NoPeduncle)?;
+            (axis.origin, axis.direction)
+        }
+        Method::FromComputed => {
+            let axis = analysis.axis.as_ref().ok_or(StartError::NoAxis)?;
+            let toward_peduncle = match &fruit.peduncle {
+                Some(peduncle) => (peduncle.mean - axis.origin).dot(axis.direction),
+                None => -axis.direction.y,
+            };
+            (axis.origin, axis.direction * toward_peduncle.signum())
+        }
+        Method::ByHand | Method::Imported => return Err(StartError::Nothing),
+    };
+    Ok(Ends::spanning(fruit.body().positions(), origin, direction)?)
+}

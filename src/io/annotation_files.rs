@@ -1,0 +1,137 @@
+//! An annotator's files on a disk: the only place that writes them, and slowly enough to be sure.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use crate::annotate::Files;
+
+/// The files of one [`crate::annotate::Store`].
+#[derive(Debug, Default)]
+pub struct DiskFiles {
+    /// The journal, open and locked.
+    journal: Option<(PathBuf, File)>,
+}
+
+impl DiskFiles {
+    /// The open journal, where this is it.
+    fn open_journal(&mut self, path: &Path) -> Option<&mut File> {
+        self.journal
+            .as_mut()
+            .filter(|(open, _)| open == path)
+            .map(|(_, file)| file)
+    }
+
+    fn hold(&mut self, path: &Path, file: File) -> io::Result<()> {
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(io::ErrorKind::ResourceBusy.into()),
+            // Some network drives have no locks: better without one than not at all.
+            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
+            Err(TryLockError::Error(error)) => return Err(error),
+        }
+        self.journal = Some((path.to_owned(), file));
+        Ok(())
+    }
+}
+
+impl Files for DiskFiles {
+    fn read(&mut self, path: &Path, longest: u64) -> io::Result<Option<Vec<u8>>> {
+        let mut bytes = Vec::new();
+        // Where a lock keeps everybody else's handles away, ours can still read.
+        if let Some(journal) = self.open_journal(path) {
+            journal.seek(SeekFrom::Start(0))?;
+            journal.read_to_end(&mut bytes)?;
+            return Ok(Some(bytes));
+        }
+        // Before the file is opened: opening a pipe waits for somebody to write into it.
+        let metadata = match std::fs::metadata(path) {
+            Ok(metadata) => metadata,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        if !metadata.is_file() {
+            return Err(io::Error::other("it is not a regular file"));
+        }
+        if metadata.len() > longest {
+            return Err(io::Error::other("it is too long for an axis"));
+        }
+        File::open(path)?.take(longest).read_to_end(&mut bytes)?;
+        Ok(Some(bytes))
+    }
+
+    fn claim(&mut self, path: &Path) -> io::Result<()> {
+        let file = OpenOptions::new().read(true).write(true).open(path)?;
+        self.hold(path, file)
+    }
+
+    fn append(&mut self, path: &Path, at: u64, bytes: &[u8]) -> io::Result<()> {
+        if self.open_journal(path).is_none() {
+            let file = OpenOptions::new()
+                .read(true)
+                .write(true)
+                .create_new(at == 0)
+                .open(path)?;
+            self.hold(path, file)?;
+        }
+        let Some(file) = self.open_journal(path) else {
+            return Err(io::ErrorKind::NotFound.into());
+        };
+        if file.metadata()?.len() < at {
+            return Err(io::Error::other("it has become shorter"));
+        }
+        file.set_len(at)?;
+        file.seek(SeekFrom::Start(at))?;
+        file.write_all(bytes)?;
+        file.sync_data()?;
+        if at == 0 { sync_folder_of(path) } else { Ok(()) }
+    }
+
+    fn replace(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let aside = beside(path, ".tmp");
+        let mut file = File::create(&aside)?;
+        let written = file.write_all(bytes).and_then(|()| file.sync_all());
+        drop(file);
+        let done = written.and_then(|()| std::fs::rename(&aside, path));
+        if done.is_err() {
+            // The first failure is the one to tell.
+            let _ = std::fs::remove_file(&aside);
+        }
+        done?;
+        sync_folder_of(path)
+    }
+
+    fn remove(&mut self, path: &Path) -> io::Result<()> {
+        match std::fs::remove_file(path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => sync_folder_of(path),
+        }
+    }
+
+    fn probe(&mut self, path: &Path) -> io::Result<()> {
+        let aside = beside(path, ".probe");
+        drop(File::create(&aside)?);
+        std::fs::remove_file(aside)
+    }
+}
+
+/// The path with a further ending: for what is written before it is renamed, which nobody else does,
+/// since the journal is locked.
+fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(ending);
+    path.with_file_name(name)
+}
+
+/// A new name is on the disk once its folder is.
+#[cfg(unix)]
+fn sync_folder_of(path: &Path) -> io::Result<()> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    File::open(folder.unwrap_or(Path::new(".")))?.sync_all()
+}
+
+/// Elsewhere folders cannot be opened, and the system sees to it.
+#[cfg(not(unix))]
+fn sync_folder_of(_: &Path) -> io::Result<()> {
+    Ok(())
+}
