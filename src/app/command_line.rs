@@ -128,6 +128,9 @@ pub fn analysis_options(request: &Request) -> Vec<String> {
     if let Some(edge) = params.filters.voxel_cm {
         add("--voxel-cm", edge.to_string());
     }
+    if params.filters.max_points != defaults.filters.max_points {
+        add("--max-points", params.filters.max_points.to_string());
+    }
     if request.without_peduncle {
         words.push("--without-peduncle".into());
     }

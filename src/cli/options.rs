@@ -76,6 +76,9 @@ pub(super) struct AnalysisOptions {
     /// Thin the cloud to one point a cube of this edge, in centimeters
     #[arg(long, value_name = "CM", value_parser = positive, allow_negative_numbers = true)]
     pub(super) voxel_cm: Option<f64>,
+    /// Analyze at most so many points: of a larger cloud a sample, by as fine a voxel grid as that allows
+    #[arg(long, value_name = "N", default_value_t = Filters::MOST, value_parser = sample_size)]
+    pub(super) max_points: usize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
@@ -207,6 +210,7 @@ impl AnalysisOptions {
                     std_ratio: self.outlier_std,
                 }),
                 voxel_cm: self.voxel_cm,
+                max_points: self.max_points,
             },
             ..defaults
         }
@@ -218,6 +222,13 @@ pub(super) fn grid_size(text: &str) -> Result<usize, String> {
     CandidateGrid::new(u)
         .map(CandidateGrid::u)
         .map_err(|e| e.to_string())
+}
+
+fn sample_size(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(most) if most >= Filters::FEWEST => Ok(most),
+        _ => Err(format!("expected a whole number of at least {}", Filters::FEWEST)),
+    }
 }
 
 fn neighbor_count(text: &str) -> Result<NonZeroUsize, String> {

@@ -71,6 +71,7 @@ struct ParamsReport {
     outlier_neighbors: Option<usize>,
     outlier_std: Option<f64>,
     voxel_cm: Option<f64>,
+    max_points: usize,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -210,5 +211,6 @@ fn params_report(request: &Request, seed: u64, params: &Params) -> ParamsReport 
         outlier_neighbors: params.filters.outliers.map(|f| f.neighbors.get()),
         outlier_std: params.filters.outliers.map(|f| f.std_ratio),
         voxel_cm: params.filters.voxel_cm,
+        max_points: params.filters.max_points,
     }
 }

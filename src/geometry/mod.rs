@@ -14,13 +14,14 @@ mod parallel;
 mod plane;
 mod spread;
 mod unit;
+mod voxels;
 mod watch;
 
 pub(crate) use eigen::symmetric_eigen;
 
 pub use cloud::{Cloud, LengthMismatch};
 pub use extent::Extent;
-pub use filters::{statistical_inliers, voxel_grid};
+pub use filters::statistical_inliers;
 pub(crate) use line::angles_between_directions_rad;
 pub use line::{angle_between_directions_rad, angle_between_lines_rad};
 pub use neighbors::{Neighbor, Neighbors};
@@ -29,5 +30,7 @@ pub use parallel::map_pieces;
 pub use plane::Plane;
 pub use spread::Spread;
 pub use unit::Unit;
+pub(crate) use voxels::near_one_another;
+pub use voxels::{voxel_edge_for, voxel_grid};
 pub(crate) use watch::PartOf;
 pub use watch::{Cancelled, Watch};

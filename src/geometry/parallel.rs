@@ -51,3 +51,11 @@ pub(super) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
         b();
     }
 }
+
+/// Sorts on all cores.
+pub(super) fn sort_unstable<T: Ord + Send>(values: &mut [T]) {
+    #[cfg(feature = "parallel")]
+    values.par_sort_unstable();
+    #[cfg(not(feature = "parallel"))]
+    values.sort_unstable();
+}

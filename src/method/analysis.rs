@@ -9,7 +9,7 @@ use super::{
     NormalSource, ParamError, Params, PlaneTerms, Ranking, Surface, SurfaceError, find_center,
     is_viewpoint_inside, plane_terms, symmetry_axis,
 };
-use crate::geometry::{Cancelled, Cloud, Watch, statistical_inliers, voxel_grid};
+use crate::geometry::{Cancelled, Cloud, Watch, statistical_inliers, voxel_edge_for, voxel_grid};
 
 /// A stage of the analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -75,6 +75,20 @@ impl AnalysisError {
 /// Something that makes the result less certain, without being an error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Warning {
+    /// A sample stands for the cloud.
+    #[error(
+        "{sampled} of {points} points are analyzed, the means of cubes of {edge_cm:.4} cm: more than the {most} that are allowed would take long"
+    )]
+    Sampled {
+        /// How many were analyzed, before those without a normal are left out.
+        sampled: usize,
+        /// Of how many, after the other filters.
+        points: usize,
+        /// The most that were allowed.
+        most: usize,
+        /// The cubes' edge in centimeters.
+        edge_cm: f64,
+    },
     /// Points without a normal were left out.
     #[error("{left_out} of {points} points have no normal and are left out")]
     PointsWithoutNormal {
@@ -158,6 +172,9 @@ pub struct Analysis {
     pub params: Params,
     /// The used points and their normals.
     pub surface: Arc<Surface>,
+    /// Where these are a sample (see [`super::Filters::max_points`]), the edge of its cubes, in the
+    /// file's unit.
+    pub sample_edge: Option<f64>,
     /// The fruit center p_c, in the file's unit and frame.
     pub center: DVec3,
     /// n, ΣD and ΣΞ of every candidate plane.
@@ -182,6 +199,9 @@ const AMBIGUOUS_LEAD: f64 = 0.02;
 pub struct UsedPoints {
     /// The points and their normals.
     pub surface: Arc<Surface>,
+    /// Where these are a sample (see [`super::Filters::max_points`]), the edge of its cubes, in the
+    /// file's unit.
+    pub sample_edge: Option<f64>,
     /// What ought to be known about them.
     pub warnings: Vec<Warning>,
 }
@@ -222,7 +242,8 @@ pub fn used_points(
     observe: &dyn Observe,
 ) -> Result<UsedPoints, AnalysisError> {
     observe.entered(Stage::Filters);
-    let filtered = filter(cloud, params, observe)?;
+    let mut warnings = Vec::new();
+    let (filtered, sample_edge) = filter(cloud, params, observe, &mut warnings)?;
     let cloud = filtered.as_ref().unwrap_or(cloud);
     observe.entered(Stage::Normals);
     let surface = match params.normals {
@@ -235,9 +256,10 @@ pub fn used_points(
         let viewpoint = params.viewpoint;
         return Err(AnalysisError::ViewpointInsideCloud { viewpoint });
     }
-    let warnings = surface_warnings(cloud, &surface, params);
+    warnings.extend(surface_warnings(cloud, &surface, params));
     Ok(UsedPoints {
         surface: Arc::new(surface),
+        sample_edge,
         warnings,
     })
 }
@@ -272,6 +294,7 @@ impl Analysis {
         Self {
             params: params.clone(),
             surface: used.surface.clone(),
+            sample_edge: used.sample_edge,
             center,
             planes,
             ranking,
@@ -282,7 +305,14 @@ impl Analysis {
     }
 }
 
-fn filter(cloud: &Cloud, params: &Params, watch: &dyn Watch) -> Result<Option<Cloud>, Cancelled> {
+/// What is left of the cloud, if anything was taken out of it, and the edge of the sample's cubes, if
+/// there is one.
+fn filter(
+    cloud: &Cloud,
+    params: &Params,
+    watch: &dyn Watch,
+    warnings: &mut Vec<Warning>,
+) -> Result<(Option<Cloud>, Option<f64>), Cancelled> {
     let mut filtered = None;
     if let Some(outliers) = params.filters.outliers {
         let inliers = statistical_inliers(cloud.positions(), outliers.neighbors, outliers.std_ratio, watch)?;
@@ -292,7 +322,20 @@ fn filter(cloud: &Cloud, params: &Params, watch: &dyn Watch) -> Result<Option<Cl
         let cloud = filtered.as_ref().unwrap_or(cloud);
         filtered = Some(voxel_grid(cloud, edge_cm / params.unit.in_cm()));
     }
-    Ok(filtered)
+    let cloud = filtered.as_ref().unwrap_or(cloud);
+    let most = params.filters.max_points;
+    let edge = voxel_edge_for(cloud.positions(), most, watch)?;
+    if let Some(edge) = edge {
+        let sample = voxel_grid(cloud, edge);
+        warnings.push(Warning::Sampled {
+            sampled: sample.len(),
+            points: cloud.len(),
+            most,
+            edge_cm: edge * params.unit.in_cm(),
+        });
+        filtered = Some(sample);
+    }
+    Ok((filtered, edge))
 }
 
 fn best_plane(grid: CandidateGrid, ranking: &Ranking) -> Result<BestPlane, NoSymmetryPlane> {

@@ -29,13 +29,39 @@ pub struct OutlierFilter {
     pub std_ratio: f64,
 }
 
-/// Filters that run before anything else, outliers first; both are off by default.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+/// Filters that run before anything else: outliers, voxel grid, and then the sample of what is still
+/// too much. The first two are off by default.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Filters {
     /// Leave out statistical outliers.
     pub outliers: Option<OutlierFilter>,
     /// Thin to one point a cube of this edge, in centimeters.
     pub voxel_cm: Option<f64>,
+    /// The most points that are analyzed, at least [`Filters::FEWEST`]. Of a cloud of more a sample is:
+    /// a voxel grid, as fine as this number allows.
+    #[serde(default = "Filters::usual_most")]
+    pub max_points: usize,
+}
+
+impl Filters {
+    /// What [`Filters::max_points`] is where nothing is said: a cloud of so many points takes seconds.
+    pub const MOST: usize = 1_000_000;
+    /// The least it may be.
+    pub const FEWEST: usize = 100;
+
+    fn usual_most() -> usize {
+        Self::MOST
+    }
+}
+
+impl Default for Filters {
+    fn default() -> Self {
+        Self {
+            outliers: None,
+            voxel_cm: None,
+            max_points: Self::MOST,
+        }
+    }
 }
 
 /// A reading of what the paper leaves open: the center's Eq. 3 and how scores are added up (§ 2.5).
@@ -93,6 +119,9 @@ pub struct Params {
 /// A parameter out of its range.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ParamError {
+    /// The sample is too small.
+    #[error("a sample must be allowed at least {min} points, not {0}", min = Filters::FEWEST)]
+    TooSmallSample(usize),
     /// u is out of range.
     #[error(
         "u must be a whole number from {min} to {max} (the paper: u > 4), not {0}",
@@ -183,6 +212,9 @@ impl Params {
         };
         if let Some(edge) = self.filters.voxel_cm {
             positive("voxel edge in centimeters", edge)?;
+        }
+        if self.filters.max_points < Filters::FEWEST {
+            return Err(ParamError::TooSmallSample(self.filters.max_points));
         }
         if let Some(filter) = self.filters.outliers {
             positive("outlier filter's standard-deviation ratio", filter.std_ratio)?;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use crate::geometry::{Cloud, Extent, Neighbors};
-use crate::method::Analysis;
+use crate::geometry::{Cloud, Extent, Neighbors, map_pieces, near_one_another};
+use crate::method::{Analysis, Surface};
 use crate::render::Color;
 
 /// The points of a cloud as shown beside its analysis.
@@ -28,7 +28,9 @@ pub struct ShownPoints {
 
 impl ShownPoints {
     /// Every point of the file. Where a voxel grid has replaced them by others, these are shown, each
-    /// with the color and label of the file's point nearest to it.
+    /// with the color and label of the file's point nearest to it. Where only a sample was analyzed,
+    /// all points are shown still, and each stands for the used point nearest to it, unless its cube
+    /// cannot have held it.
     pub fn new(cloud: &Cloud, analysis: &Analysis) -> Self {
         let surface = analysis.surface.points();
         if analysis.params.filters.voxel_cm.is_some() {
@@ -43,6 +45,9 @@ impl ShownPoints {
                 cloud.labels().map(|l| source.iter().map(|&i| l[i]).collect()),
                 (0..surface.len()).map(Some).collect(),
             );
+        }
+        if let Some(edge) = analysis.sample_edge {
+            return Self::of_cloud(cloud, nearest_in(&analysis.surface, cloud.positions(), edge));
         }
         // Everything else only leaves points out: those that stayed have the very coordinates.
         let key = |p: &DVec3| p.to_array().map(|c| (c + 0.0).to_bits());
@@ -103,4 +108,30 @@ impl ShownPoints {
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }
+}
+
+/// For each point the used point nearest to it, if one lies within a cube's diagonal.
+fn nearest_in(surface: &Surface, points: &[DVec3], edge: f64) -> Vec<Option<usize>> {
+    let mut all = vec![None; points.len()];
+    let Some(neighbors) = surface.neighbors() else {
+        return all;
+    };
+    let farthest_squared = 3.0 * edge * edge;
+    // Close points ask for nearly the same.
+    let order = near_one_another(points, 8.0 * edge);
+    let pieces = map_pieces(order.len(), 4096, &(), |range| {
+        let queries: Vec<DVec3> = order[range.clone()].iter().map(|&i| points[i]).collect();
+        let index =
+            |n: &crate::geometry::Neighbor| (n.distance_squared <= farthest_squared).then_some(n.index);
+        neighbors
+            .nearest_of_each(&queries)
+            .iter()
+            .map(index)
+            .collect::<Vec<_>>()
+    });
+    // Nobody calls this off.
+    for (&i, found) in order.iter().zip(pieces.into_iter().flatten().flatten()) {
+        all[i] = found;
+    }
+    all
 }
