@@ -3,6 +3,7 @@
 mod analyze;
 mod annotate;
 mod annotations;
+mod bench;
 mod evaluate;
 mod options;
 #[cfg(feature = "window")]
@@ -58,6 +59,8 @@ enum Command {
     Annotations(annotations::Annotations),
     /// Run the paper's experiments and set them beside the paper's figures
     Reproduce(reproduce::Reproduce),
+    /// Time each stage here, beside other programs where they are installed
+    Bench(bench::Bench),
     /// Print a completion script for a shell
     Completions {
         /// The shell that will read it
@@ -106,6 +109,7 @@ fn run(cli: Cli) -> anyhow::Result<()> {
         Command::Annotate(annotate) => annotate::run(&annotate),
         Command::Annotations(annotations) => annotations::run(&annotations),
         Command::Reproduce(reproduce) => reproduce::run(&reproduce),
+        Command::Bench(bench) => bench::run(&bench),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "axiscope", &mut script);
