@@ -56,6 +56,9 @@ fn cell(p: DVec3, edge: f64) -> I64Vec3 {
     (p / edge).floor().as_i64vec3()
 }
 
+/// Bits of a cell's number along an axis, where three of them make one number.
+const BITS: u32 = 21;
+
 /// The points' indices, cell by cell and ascending in each, and where in them each cell starts, with
 /// the end of the last.
 fn by_cell(points: &[DVec3], edge: f64) -> (Vec<usize>, Vec<usize>) {
@@ -65,7 +68,6 @@ fn by_cell(points: &[DVec3], edge: f64) -> (Vec<usize>, Vec<usize>) {
         (low, high) = (low.min(cell), high.max(cell));
     }
     // Three numbers in one where they fit: a third of the memory and of the time.
-    const BITS: u32 = 21;
     let fits = |e: usize| high[e].checked_sub(low[e]).is_some_and(|range| range < 1 << BITS);
     if (0..3).all(fits) {
         let key = |&p: &DVec3| {
