@@ -3,7 +3,8 @@
 mod common;
 
 use axiscope::geometry::{Cloud, Unit, Watch, voxel_edge_for, voxel_grid};
-use axiscope::method::{Analysis, Filters, Params, Preset, Warning, analyze};
+use axiscope::method::{Analysis, CenterMethod, Filters, Params, Preset, Warning, analyze};
+use axiscope::view::ShownPoints;
 use common::{scattered, view};
 use glam::DVec3;
 use proptest::prelude::*;
@@ -119,4 +120,34 @@ fn looking_for_the_edge_can_be_called_off() {
         }
     }
     assert!(voxel_edge_for(&scattered(1, 500), 100, &Never).is_err());
+}
+
+#[test]
+fn every_point_of_a_sampled_cloud_is_shown_as_the_used_point_nearest_to_it() {
+    let v = view(7, 5000);
+    let mut points = v.points.clone();
+    // A stray that the outlier filter takes away belongs to no used point.
+    points.push(v.center + DVec3::new(0.0, 30.0, 0.0));
+    let cloud = Cloud::new(points);
+    let mut params = params(1200);
+    params.center = CenterMethod::Given(v.center);
+    params.filters.outliers = Some(axiscope::method::OutlierFilter {
+        neighbors: std::num::NonZeroUsize::new(10).unwrap(),
+        std_ratio: 8.0,
+    });
+    let analysis = analyze(&cloud, &params, &()).unwrap();
+    let edge = analysis.sample_edge.unwrap();
+    let shown = ShownPoints::new(&cloud, &analysis);
+    assert_eq!(shown.positions, cloud.positions());
+    let used = analysis.surface.points();
+    for (p, &found) in shown.positions.iter().zip(&shown.in_surface) {
+        let nearest = used.iter().map(|q| q.distance(*p)).fold(f64::INFINITY, f64::min);
+        match found {
+            Some(i) => assert_eq!(used[i].distance(*p), nearest),
+            None => assert!(nearest > 1.73 * edge, "{nearest} {edge}"),
+        }
+    }
+    assert_eq!(shown.in_surface.last(), Some(&None));
+    let without = shown.in_surface.iter().filter(|i| i.is_none()).count();
+    assert!(without < 50, "{without}");
 }
