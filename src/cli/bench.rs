@@ -45,11 +45,14 @@ pub(super) struct Bench {
 pub(super) fn run(args: &Bench) -> anyhow::Result<()> {
     let folder = Folder::new()?;
     let mut out = std::io::stdout().lock();
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
     writeln!(
         out,
-        "Least of {} runs on {cores} cores; the ratio is the other program's time to ours.\n",
-        args.runs
+        "Least of {} runs on {}; the ratio is the other program's time to ours.\n",
+        args.runs,
+        match threads() {
+            1 => "one thread".to_string(),
+            threads => format!("{threads} threads"),
+        }
     )?;
     writeln!(
         out,
@@ -61,6 +64,16 @@ pub(super) fn run(args: &Bench) -> anyhow::Result<()> {
         analysis_stages(args, points as usize, &folder, &mut out)?;
     }
     Ok(())
+}
+
+#[cfg(feature = "parallel")]
+fn threads() -> usize {
+    rayon::current_num_threads()
+}
+
+#[cfg(not(feature = "parallel"))]
+fn threads() -> usize {
+    1
 }
 
 /// A row of the table.
