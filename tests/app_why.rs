@@ -22,10 +22,7 @@ fn apply(app: &mut App, command: Command) {
         if !app.is_busy() {
             return;
         }
-        assert!(
-            begin.elapsed() < Duration::from_mins(2),
-            "the workers do not end"
-        );
+        assert!(begin.elapsed() < Duration::from_mins(2), "the workers do not end");
         std::thread::sleep(Duration::from_millis(2));
     }
 }

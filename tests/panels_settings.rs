@@ -38,10 +38,7 @@ impl Bench {
             if !self.app.is_busy() {
                 return;
             }
-            assert!(
-                begin.elapsed() < Duration::from_mins(2),
-                "the workers do not end"
-            );
+            assert!(begin.elapsed() < Duration::from_mins(2), "the workers do not end");
             std::thread::sleep(Duration::from_millis(2));
         }
     }
@@ -272,6 +269,38 @@ fn typed_numbers_out_of_range_are_clamped() {
 }
 
 #[test]
+fn no_way_of_setting_a_number_leaves_its_range() {
+    let mut harness = dark(bench(Panel::Parameters, Some(Sample::Pepper)), [300.0, 900.0]);
+    click(&mut harness, "Unit, normals, viewpoint");
+    let name = "Neighbors k of a normal";
+    let k = |harness: &Harness<'_, Bench>| harness.state().app.state().settings.request.params.k.get();
+    harness
+        .get_by_role_and_label(Role::SpinButton, name)
+        .set_value_accesskit(1.0);
+    harness.run();
+    assert_eq!(k(&harness), 3);
+    harness.get_by_role_and_label(Role::SpinButton, name).focus();
+    harness.run();
+    harness.key_press(egui::Key::ArrowDown);
+    harness.run();
+    assert_eq!(k(&harness), 3);
+    harness.key_press(egui::Key::ArrowUp);
+    harness.run();
+    assert_eq!(k(&harness), 4, "a key is a step");
+    let name = "Angle weight τ in cm/rad";
+    harness
+        .get_by_role_and_label(Role::SpinButton, name)
+        .set_value_accesskit(-1.0);
+    harness.run();
+    assert_eq!(
+        harness.state().app.state().settings.request.params.tau_cm_per_rad,
+        0.0
+    );
+    harness.state_mut().settle();
+    assert!(harness.state().app.state().analysis().is_some());
+}
+
+#[test]
 fn a_preset_is_chosen_and_custom_is_said() {
     let mut harness = dark(bench(Panel::Parameters, Some(Sample::Pepper)), [300.0, 620.0]);
     assert!(harness.query_by_label_contains("Custom").is_none());
@@ -445,8 +474,12 @@ fn the_partner_is_gone_to_and_the_pick_cleared() {
     assert_eq!(state.shown().expect("points").in_surface[now], Some(partner));
     click(&mut harness, "Clear");
     assert_eq!(harness.state().app.state().picked, None);
+    harness.remove_cursor();
     harness.run();
     assert!(harness.query_by_label("No point is picked.").is_some());
+    harness.set_size(egui::vec2(300.0, 160.0));
+    harness.run();
+    harness.snapshot_options("point_empty", &options());
 }
 
 #[test]
