@@ -181,7 +181,7 @@ mod tests {
             [0, 999, 1000, 1_234_567]
                 .map(grouped)
                 .each_ref()
-                .map(|s| s.as_str())
+                .map(String::as_str)
         );
     }
 }
