@@ -369,12 +369,9 @@ fn message_id(app: &App) -> u64 {
 fn a_cloud_that_cannot_be_analyzed_is_shown_all_the_same() {
     let folder = tempfile::tempdir().expect("a folder");
     let line = folder.path().join("line.ply");
-    let mut text = String::from(
-        "ply\nformat ascii 1.0\nelement vertex 50\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
-    );
-    for i in 0..50 {
-        text += &format!("{i} 0 300\n");
-    }
+    let header = "ply\nformat ascii 1.0\nelement vertex 50\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    let points: Vec<String> = (0..50).map(|i| format!("{i} 0 300")).collect();
+    let text = format!("{header}{}\n", points.join("\n"));
     std::fs::write(&line, text).expect("written");
     let mut app = app();
     act(&mut app, Command::Open(vec![line]));

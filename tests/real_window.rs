@@ -75,7 +75,7 @@ fn it_opens_draws_answers_a_key_and_closes() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("it starts");
-    let minute = Duration::from_secs(60);
+    let minute = Duration::from_mins(1);
     let mut window = String::new();
     wait_for("the window", minute, || {
         window = screen.run("xdotool", &["search", "--name", "Axiscope"]);

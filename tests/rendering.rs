@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
 use axiscope::render::{
-    Background, Camera, DrawError, EyeDome, Gpu, Image, Line, Points, Polygon, SHADERS, Scene, Viewport,
-    draw_extract, draw_image,
+    Background, Camera, DrawError, Extract, EyeDome, Gpu, Image, Line, Points, Polygon, SHADERS, Scene,
+    Viewport, draw_extract, draw_image,
 };
 use glam::{DVec3, Vec3};
 use wgpu::naga;
@@ -176,6 +176,44 @@ fn a_thinned_cloud_is_an_even_part_of_it() {
         (8..=26).contains(&left) && left.abs_diff(right) <= 4,
         "{left} and {right}"
     );
+}
+
+#[test]
+fn a_picture_that_comes_little_by_little_is_the_whole_one() {
+    // Spheres of points around a line and a plane, so that depth and overlays matter.
+    let points: Vec<(Vec3, [u8; 4])> = (0..600_u16)
+        .map(|i| {
+            let (a, b) = (f32::from(i) * 0.37, f32::from(i) * 0.011);
+            let place = Vec3::new(3.0 * a.sin() * b.cos(), 3.0 * a.cos() * b.cos(), 3.0 * b.sin());
+            (place, if i % 2 == 0 { RED } else { BLUE })
+        })
+        .collect();
+    let mut scene = scene(&points, 9.0);
+    scene.eye_dome = EyeDome {
+        strength: 1.0,
+        scale: 4.0,
+    };
+    scene.lines.push(Line::new(
+        DVec3::new(-4.0, -4.0, -4.0),
+        DVec3::new(4.0, 4.0, 4.0),
+        BLUE,
+        4.0,
+    ));
+    let gpu = Gpu::software().expect("the software driver is installed");
+    let part = |points| Extract {
+        points,
+        ..Extract::whole([SIDE, SIDE], 1)
+    };
+    let draw = |parts: &[Extract]| draw_extract(&gpu, &scene, &camera(), parts).expect("it draws");
+    let whole = draw(&[part(0..usize::MAX)]);
+    assert_eq!(draw(&[part(0..100), part(100..350), part(350..600)]), whole);
+    assert_ne!(
+        draw(&[part(0..100), part(100..350)]),
+        whole,
+        "something is missing"
+    );
+    // From the beginning means anew.
+    assert_eq!(draw(&[part(0..600), part(0..100)]), draw(&[part(0..100)]));
 }
 
 #[test]

@@ -8,8 +8,10 @@ mod author;
 mod ends;
 pub mod exchange;
 mod file;
+mod files;
 mod history;
 mod journal;
+mod slots;
 mod store;
 mod time;
 
@@ -21,7 +23,8 @@ pub use annotation::{Annotation, CloudId, Confidence, Finding, Judgment, Method}
 pub use author::{Author, NameError, Role, axis_file_of};
 pub use ends::{Ends, EndsError, NUDGES_DEG, Pivot};
 pub use file::{FileError, LONGEST_FILE};
+pub use files::{Files, Notice, StoreError};
 pub use history::History;
 pub use journal::{Deed, Journal, JournalError, deed_line, head_line, read_journal};
-pub use store::{Files, Notice, Store, StoreError};
+pub use store::Store;
 pub use time::{is_rfc3339, rfc3339};

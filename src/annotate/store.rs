@@ -4,124 +4,15 @@
 //! renamed. Only then is it saved. What cannot be written stays here and is tried again with the next
 //! edit. Everything that touches a disk is behind [`Files`].
 
-use std::io;
 use std::path::{Path, PathBuf};
 
-use super::journal::{Deed, Journal, JournalError, deed_line, head_line, read_journal};
-use super::{Annotation, Author, CloudId, FileError, History, Judgment, LONGEST_FILE, Method};
+use super::files::failed;
+use super::journal::{Deed, deed_line, head_line};
+use super::slots::{COPIES, axis_of, choose, find_journal, slot};
+use super::{
+    Annotation, Author, CloudId, Files, History, Judgment, LONGEST_FILE, Method, Notice, StoreError,
+};
 use crate::geometry::Unit;
-
-/// What a store asks of a disk.
-pub trait Files: Send {
-    /// The whole file; `None` where there is none.
-    ///
-    /// # Errors
-    /// The system's, and where the file is longer than `longest` bytes or no regular file.
-    fn read(&mut self, path: &Path, longest: u64) -> io::Result<Option<Vec<u8>>>;
-    /// Keeps an existing journal for this program alone, as long as `self` lives.
-    ///
-    /// # Errors
-    /// The system's; [`io::ErrorKind::ResourceBusy`] where another program has it.
-    fn claim(&mut self, path: &Path) -> io::Result<()>;
-    /// Writes at byte `at` of a journal, dropping what stands behind it, and returns once it is on the
-    /// disk. At 0 a journal that was not claimed is made.
-    ///
-    /// # Errors
-    /// The system's; [`io::ErrorKind::AlreadyExists`] where another program made it meanwhile.
-    fn append(&mut self, path: &Path, at: u64, bytes: &[u8]) -> io::Result<()>;
-    /// Puts a whole file in place at once, and returns once it is on the disk: at any moment there is
-    /// either the old one or the new one.
-    ///
-    /// # Errors
-    /// The system's.
-    fn replace(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
-    /// Removes a file that may be missing.
-    ///
-    /// # Errors
-    /// The system's.
-    fn remove(&mut self, path: &Path) -> io::Result<()>;
-    /// Nothing, where a file could be put there.
-    ///
-    /// # Errors
-    /// The system's, where it could not.
-    fn probe(&mut self, path: &Path) -> io::Result<()>;
-}
-
-/// Why an edit is not saved, or a store cannot be opened. One sentence that names the file.
-#[derive(Debug, thiserror::Error)]
-pub enum StoreError {
-    /// The system failed.
-    #[error("{}: {error}", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        error: io::Error,
-    },
-    /// Another program is annotating.
-    #[error("{}: another program is annotating this cloud under this name", path.display())]
-    InUse {
-        /// The journal.
-        path: PathBuf,
-    },
-    /// Every name is taken by files that must not be touched.
-    #[error("{}: this and all further copies are taken by other files", path.display())]
-    NoName {
-        /// The first.
-        path: PathBuf,
-    },
-}
-
-/// What an annotator ought to know about the files, in one sentence each.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Notice {
-    /// A file was left alone, and another is written instead.
-    KeptBeside {
-        /// The file that is not touched.
-        kept: PathBuf,
-        /// Why.
-        reason: String,
-        /// What is written instead.
-        instead: PathBuf,
-    },
-    /// The axis file was older than the journal, or gone, and was written again.
-    Restored(PathBuf),
-    /// The axis file had been changed by another program; that is now the newest edit.
-    TakenIn(PathBuf),
-    /// The journal ends in a line that was cut short: an edit that was never said to be saved.
-    CutShort(PathBuf),
-}
-
-impl std::fmt::Display for Notice {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::KeptBeside {
-                kept,
-                reason,
-                instead,
-            } => write!(
-                f,
-                "{} is left as it is, since {reason}; {} is written instead.",
-                kept.display(),
-                instead.file_name().unwrap_or_default().display()
-            ),
-            Self::Restored(path) => write!(f, "{} was written again from its journal.", path.display()),
-            Self::TakenIn(path) => write!(
-                f,
-                "{} was changed by another program: that is now the newest edit.",
-                path.display()
-            ),
-            Self::CutShort(path) => write!(
-                f,
-                "{} ends in a line that was cut short, an edit that had not been saved.",
-                path.display()
-            ),
-        }
-    }
-}
-
-/// How many names are tried.
-const COPIES: u32 = 99;
 
 /// One annotator's axis of one cloud, with its history and its files.
 pub struct Store {
@@ -141,13 +32,6 @@ pub struct Store {
     /// What the axis file held when it was last looked at.
     axis_bytes: Option<Vec<u8>>,
     notices: Vec<Notice>,
-}
-
-/// A name that was tried: nothing there, one of ours, or one that must not be touched.
-enum Slot<T> {
-    Free,
-    Ours(T),
-    Kept(String),
 }
 
 impl Store {
@@ -399,91 +283,4 @@ impl Store {
             }
         }
     }
-}
-
-fn failed(path: &Path, error: io::Error) -> StoreError {
-    let path = path.to_owned();
-    match error.kind() {
-        io::ErrorKind::ResourceBusy | io::ErrorKind::AlreadyExists => StoreError::InUse { path },
-        _ => StoreError::Io { path, error },
-    }
-}
-
-/// The axis in a file, if it is this author's of this cloud; else why not.
-fn axis_of(bytes: &[u8], cloud: &CloudId, author: &Author) -> Result<Annotation, String> {
-    let axis = Annotation::from_json(bytes).map_err(|error: FileError| error.to_string())?;
-    if axis.cloud.sha256 != cloud.sha256 {
-        return Err("it belongs to another cloud".into());
-    }
-    if !axis.is_by(author) {
-        return Err(format!("it is {}'s", axis.annotator));
-    }
-    Ok(axis)
-}
-
-fn slot<T>(read: io::Result<Option<Vec<u8>>>, parse: impl Fn(Vec<u8>) -> Result<T, String>) -> Slot<T> {
-    match read {
-        Ok(None) => Slot::Free,
-        Ok(Some(bytes)) => parse(bytes).map_or_else(Slot::Kept, Slot::Ours),
-        Err(error) => Slot::Kept(format!("it cannot be read ({error})")),
-    }
-}
-
-/// The journal of this author for this cloud, claimed and read.
-fn find_journal(
-    files: &mut dyn Files,
-    cloud_path: &Path,
-    cloud: &CloudId,
-    author: &Author,
-) -> Result<(PathBuf, Journal, Vec<Notice>), StoreError> {
-    let parse = |bytes: Vec<u8>| {
-        read_journal(&bytes, &cloud.sha256, author).map_err(|error: JournalError| error.to_string())
-    };
-    let mut kept = Vec::new();
-    let name = |copy| author.journal_path(cloud_path, copy);
-    let (path, journal) = choose(name, |path| slot(files.read(path, u64::MAX), parse), &mut kept)?;
-    if journal.is_none() {
-        return Ok((path, Journal::default(), kept));
-    }
-    match files.claim(&path) {
-        Err(error) if error.kind() == io::ErrorKind::ResourceBusy => return Err(failed(&path, error)),
-        // Whether it can be written is told later; it can be read.
-        _ => {}
-    }
-    // Again, now that nobody else writes it.
-    let journal = match slot(files.read(&path, u64::MAX), parse) {
-        Slot::Ours(journal) => journal,
-        Slot::Free => Journal::default(),
-        Slot::Kept(reason) => {
-            let error = io::Error::other(reason);
-            return Err(StoreError::Io { path, error });
-        }
-    };
-    Ok((path, journal, kept))
-}
-
-/// The name to write under: the last that is ours already, else the first that is free.
-fn choose<T>(
-    name: impl Fn(u32) -> PathBuf,
-    mut look: impl FnMut(&Path) -> Slot<T>,
-    notices: &mut Vec<Notice>,
-) -> Result<(PathBuf, Option<T>), StoreError> {
-    let (mut ours, mut free, mut kept) = (None, None, Vec::new());
-    for path in (1..=COPIES).map(&name) {
-        match look(&path) {
-            Slot::Ours(content) => ours = Some((path, content)),
-            Slot::Free => free = free.or(Some(path)),
-            Slot::Kept(reason) => kept.push((path, reason)),
-        }
-    }
-    let (path, content) = match ours {
-        Some((path, content)) => (path, Some(content)),
-        None => (free.ok_or_else(|| StoreError::NoName { path: name(1) })?, None),
-    };
-    notices.extend(kept.into_iter().map(|(kept, reason)| Notice::KeptBeside {
-        kept,
-        reason,
-        instead: path.clone(),
-    }));
-    Ok((path, content))
 }

@@ -10,7 +10,7 @@ use super::{App, PickQuestion};
 use crate::evaluate::Request;
 use crate::geometry::Unit;
 use crate::io::{PictureSettings, encode_picture};
-use crate::method::{CenterMethod, Params, Preset, RandomSearch};
+use crate::method::{CenterMethod, Params, Preset};
 use crate::view::ViewPreset;
 
 impl App {
@@ -155,11 +155,7 @@ impl App {
     fn use_preset(&mut self, preset: Preset) {
         let mut request = self.state.settings.request.clone();
         let read = Params::new(preset, Unit::Centimeter);
-        let search = request
-            .params
-            .center
-            .search()
-            .unwrap_or_else(RandomSearch::default);
+        let search = request.params.center.search().unwrap_or_default();
         request.params.center = CenterMethod::of_preset(preset, search);
         request.params.aggregation = read.aggregation;
         request.params.min_partner_fraction = read.min_partner_fraction;

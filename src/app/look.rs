@@ -167,22 +167,14 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         reference: reference.as_ref(),
     };
     let Some(analysis) = analysis else {
-        let colored = color_bare(&shown, style.coloring);
-        let scene = build_bare_scene(&shown, &colored, &settings);
-        return Ok(Look {
-            scene: Arc::new(numbered(scene, &shown, before)),
-            legend: Arc::new(colored.legend),
+        return Ok(bare_look(
             shown,
-            analysis: None,
-            plane_index: None,
-            detail: None,
-            axis: None,
-            reference,
-            fallback: None,
-            contributions: None,
-        });
+            reference.clone(),
+            style.coloring,
+            &settings,
+            before,
+        ));
     };
-
     let (center, params) = (analysis.center, &analysis.params);
     let plane_of = |index: usize| Plane {
         point: center,
@@ -249,6 +241,30 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         contributions: contributions.map(Arc::new),
         analysis: Some(analysis),
     })
+}
+
+/// The look of a cloud that was not analyzed.
+fn bare_look(
+    shown: Arc<ShownPoints>,
+    reference: Option<AxisEstimate>,
+    coloring: Coloring,
+    settings: &SceneSettings<'_>,
+    before: Option<&Look>,
+) -> Look {
+    let colored = color_bare(&shown, coloring);
+    let scene = build_bare_scene(&shown, &colored, settings);
+    Look {
+        scene: Arc::new(numbered(scene, &shown, before)),
+        legend: Arc::new(colored.legend),
+        shown,
+        analysis: None,
+        plane_index: None,
+        detail: None,
+        axis: None,
+        reference,
+        fallback: None,
+        contributions: None,
+    }
 }
 
 /// A point's diameter in logical pixels.

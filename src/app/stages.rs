@@ -220,18 +220,17 @@ impl Stages {
         params.check()?;
         let grid = CandidateGrid::new(params.u)?;
         let used_key = UsedKey::new(fruit_key, request, &params);
-        let used = match kept(self.used.as_ref(), &used_key) {
-            Some(used) => used,
-            None => {
-                let used = if request.without_peduncle {
-                    used_points(&fruit.body(), &params, observe)?
-                } else {
-                    used_points(fruit.cloud(), &params, observe)?
-                };
-                let used = Arc::new(used);
-                self.used = Some((used_key.clone(), used.clone()));
-                used
-            }
+        let used = if let Some(used) = kept(self.used.as_ref(), &used_key) {
+            used
+        } else {
+            let used = if request.without_peduncle {
+                used_points(&fruit.body(), &params, observe)?
+            } else {
+                used_points(fruit.cloud(), &params, observe)?
+            };
+            let used = Arc::new(used);
+            self.used = Some((used_key.clone(), used.clone()));
+            used
         };
         observe.entered(Stage::Center);
         let center_key = CenterKey {
@@ -251,26 +250,25 @@ impl Stages {
             center,
             u: params.u,
         };
-        let planes = match self.planes_of(&planes_key) {
-            Some(planes) => planes,
-            None => {
-                observe.entered(Stage::PlaneTerms);
-                let terms = plane_terms(
-                    &used.surface,
-                    params.unit,
-                    center,
-                    params.viewpoint,
-                    grid,
-                    observe,
-                )?;
-                let terms = Arc::new(terms);
-                self.planes.retain(|(key, _)| key.used == used_key);
-                self.planes.push((planes_key, terms.clone()));
-                if self.planes.len() > KEPT_GRIDS {
-                    self.planes.remove(0);
-                }
-                terms
+        let planes = if let Some(planes) = self.planes_of(&planes_key) {
+            planes
+        } else {
+            observe.entered(Stage::PlaneTerms);
+            let terms = plane_terms(
+                &used.surface,
+                params.unit,
+                center,
+                params.viewpoint,
+                grid,
+                observe,
+            )?;
+            let terms = Arc::new(terms);
+            self.planes.retain(|(key, _)| key.used == used_key);
+            self.planes.push((planes_key, terms.clone()));
+            if self.planes.len() > KEPT_GRIDS {
+                self.planes.remove(0);
             }
+            terms
         };
         observe.entered(Stage::Scores);
         let analysis = Arc::new(Analysis::of_stages(&params, &used, center, planes));

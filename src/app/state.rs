@@ -90,6 +90,10 @@ pub enum Tool {
 
 /// Everything that the window shows.
 #[derive(Debug, Clone)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each says one thing that is so or not"
+)]
 pub struct State {
     /// The clouds that are open.
     pub entries: Vec<Entry>,

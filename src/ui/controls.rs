@@ -213,7 +213,8 @@ impl Number<'_> {
         // A field that was only visited gives back what it shows, which is rounded.
         let resolution = 0.5 * 0.1_f64.powi(i32::try_from(self.decimals).unwrap_or(0));
         if response.changed() && (response.dragged() || (typed - *value).abs() > resolution) {
-            *value = typed;
+            // Arrow keys and assistive technology know no range.
+            *value = typed.clamp(*self.range.start(), *self.range.end());
         }
         response
     }
@@ -228,13 +229,20 @@ pub(super) fn count(
     tip: &str,
 ) -> Response {
     let size = vec2(FIELD_WIDTH, ui.spacing().interact_size.y);
+    // An arrow key changes it by one at least, a large one by half a percent.
+    let speed = (*value as f64 / 200.0).round().max(1.0);
     let field = DragValue::new(value)
-        .range(range)
+        .range(range.clone())
         .clamp_existing_to_range(false)
         .update_while_editing(false)
-        .speed(0.2)
+        .speed(speed)
         .min_size(size);
-    ui.add(field).on_hover_text(tip).accessible_name(name)
+    let response = ui.add(field).on_hover_text(tip).accessible_name(name);
+    if response.changed() {
+        // Arrow keys and assistive technology know no range.
+        *value = (*value).clamp(*range.start(), *range.end());
+    }
+    response
 }
 
 /// A label, a field, and a slider under them over the whole width. The slider spans what is usual,

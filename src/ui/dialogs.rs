@@ -15,7 +15,7 @@ pub(super) enum Asked {
     Failed(String),
 }
 
-pub(super) fn open_files(ctx: &egui::Context, answers: Sender<Asked>) {
+pub(super) fn open_files(ctx: &egui::Context, answers: &Sender<Asked>) {
     let dialog = AsyncFileDialog::new()
         .set_title("Open point clouds")
         .add_filter("Point clouds (PLY)", &["ply", "PLY"]);
@@ -26,7 +26,7 @@ pub(super) fn open_files(ctx: &egui::Context, answers: Sender<Asked>) {
     });
 }
 
-pub(super) fn open_folder(ctx: &egui::Context, answers: Sender<Asked>) {
+pub(super) fn open_folder(ctx: &egui::Context, answers: &Sender<Asked>) {
     let answer = AsyncFileDialog::new()
         .set_title("Open a folder of point clouds")
         .pick_folder();
@@ -35,7 +35,7 @@ pub(super) fn open_folder(ctx: &egui::Context, answers: Sender<Asked>) {
     });
 }
 
-pub(super) fn save_image(ctx: &egui::Context, answers: Sender<Asked>, name: &str, size_px: [u32; 2]) {
+pub(super) fn save_image(ctx: &egui::Context, answers: &Sender<Asked>, name: &str, size_px: [u32; 2]) {
     let answer = AsyncFileDialog::new()
         .set_title("Save the view")
         .set_file_name(name)
@@ -53,7 +53,7 @@ fn path_of(handle: &FileHandle) -> PathBuf {
 /// Dialogs are made on the interface's thread, as some systems want it, and waited for on another.
 fn wait(
     ctx: &egui::Context,
-    answers: Sender<Asked>,
+    answers: &Sender<Asked>,
     answer: impl Future<Output = Option<Asked>> + Send + 'static,
 ) {
     let ctx = ctx.clone();

@@ -46,19 +46,14 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         .filter(|_| !response.dragged())
         .and_then(|place| nearest(&dots, place));
     plane_tip::preview(ui, response.id, hovered, commands);
-    match hovered {
-        Some(index) => {
-            plane_tip::tooltip(&response, &planes, index);
-            if response.clicked() {
-                commands.push(Command::LookAt(planes.facts[index].choice()));
-            }
+    if let Some(index) = hovered {
+        plane_tip::tooltip(&response, &planes, index);
+        if response.clicked() {
+            commands.push(Command::LookAt(planes.facts[index].choice()));
         }
-        None => {
-            let hint = "Drag turns the hemisphere, a double click turns it back.";
-            if !response.dragged() {
-                response.clone().on_hover_text_at_pointer(hint);
-            }
-        }
+    } else if !response.dragged() {
+        let hint = "Drag turns the hemisphere, a double click turns it back.";
+        response.clone().on_hover_text_at_pointer(hint);
     }
 
     paint_sphere(ui, &view);

@@ -31,24 +31,21 @@ fn item(ui: &mut egui::Ui, action: &Action, acts: &mut Vec<Act>) {
         .first()
         .map(|key| key_text(ui.ctx(), key))
         .unwrap_or_default();
-    let chosen = match action.is_on {
-        Some(mut is_on) => {
-            ui.horizontal(|ui| {
-                let response = ui.add_enabled(
-                    action.is_enabled,
-                    egui::Checkbox::new(&mut is_on, action.title.as_str()),
-                );
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    ui.label(RichText::new(keys).weak());
-                });
-                response.clicked()
-            })
-            .inner
-        }
-        None => {
-            let button = egui::Button::new(action.title.as_str()).shortcut_text(keys);
-            ui.add_enabled(action.is_enabled, button).clicked()
-        }
+    let chosen = if let Some(mut is_on) = action.is_on {
+        ui.horizontal(|ui| {
+            let response = ui.add_enabled(
+                action.is_enabled,
+                egui::Checkbox::new(&mut is_on, action.title.as_str()),
+            );
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                ui.label(RichText::new(keys).weak());
+            });
+            response.clicked()
+        })
+        .inner
+    } else {
+        let button = egui::Button::new(action.title.as_str()).shortcut_text(keys);
+        ui.add_enabled(action.is_enabled, button).clicked()
     };
     if chosen {
         acts.push(action.act.clone());

@@ -47,6 +47,10 @@ impl Behavior<Pane> for Panes<'_> {
     }
 
     fn on_edit(&mut self, action: EditAction) {
+        // A panel that is hidden under the cursor cannot say itself that nothing is previewed any more.
+        if action == EditAction::TabSelected && self.state.previewed.is_some() {
+            self.commands.push(Command::Preview(None));
+        }
         *self.was_moved |= matches!(action, EditAction::TileResized | EditAction::TileDropped);
     }
 

@@ -45,7 +45,7 @@ pub fn line(planes: &Planes, index: usize) -> String {
         None => error_words(facts),
     };
     format!(
-        "{score} · {} of {} points have a partner ({:.0} %) · {error}",
+        "{score} · {} of {} points have a partner ({:.1} %) · {error}",
         facts.partners,
         planes.points(),
         planes.partner_percent(facts)
@@ -67,7 +67,7 @@ pub fn table(ui: &mut Ui, planes: &Planes, index: usize) {
         (
             "Points with a partner",
             format!(
-                "{} of {} ({:.0} %)",
+                "{} of {} ({:.1} %)",
                 facts.partners,
                 planes.points(),
                 planes.partner_percent(facts)

@@ -1,8 +1,8 @@
 //! The map of scores: a cell a candidate plane, g across and h down.
 
 use egui::{
-    Align2, EventFilter, Key, Mesh, Modifiers, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui,
-    WidgetInfo, pos2, vec2,
+    Align2, EventFilter, Key, Mesh, Modifiers, Painter, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo,
+    pos2, vec2,
 };
 
 use super::marks::{self, Mark};
@@ -174,6 +174,10 @@ impl Layout {
     /// Hatches all cells without a score with as few lines as there can be.
     fn paint_hatch(&self, ui: &Ui, planes: &Planes) {
         let stroke = marks::hatch_stroke(ui);
+        let line = |[from, to]: [f32; 2], sum: f32| {
+            let ends = [pos2(from, sum - from), pos2(to, sum - to)];
+            ui.painter().line_segment(ends, stroke);
+        };
         let spacing = 6.0;
         let (left, right) = (self.columns[0], self.columns[self.u]);
         let (top, bottom) = (self.rows[0], self.rows[self.u]);
@@ -194,20 +198,16 @@ impl Layout {
                     (None, true) => begun = Some(pair[0]),
                     (Some(start), false) => {
                         begun = None;
-                        self.hatch_line(ui.painter(), sum, [start, pair[0]], stroke);
+                        line([start, pair[0]], sum);
                     }
                     _ => {}
                 }
             }
             if let (Some(start), Some(&end)) = (begun, places.last()) {
-                self.hatch_line(ui.painter(), sum, [start, end], stroke);
+                line([start, end], sum);
             }
             sum += spacing;
         }
-    }
-
-    fn hatch_line(&self, painter: &Painter, sum: f32, [from, to]: [f32; 2], stroke: Stroke) {
-        painter.line_segment([pos2(from, sum - from), pos2(to, sum - to)], stroke);
     }
 
     fn paint_marks(&self, painter: &Painter, state: &State, planes: &Planes) {

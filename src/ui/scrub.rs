@@ -34,12 +34,13 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     if let Some(index) = state.plane_index() {
         let facts = &planes.facts[index];
         let is_preview = state.previewed.is_some() && state.previewed != state.chosen_plane_index();
-        let what = if is_preview {
-            format!("Previewed g {}, h {}: ", facts.g, facts.h)
-        } else {
-            String::new()
-        };
-        ui.label(format!("{what}{}", plane_tip::line(&planes, index)));
+        let mut line = plane_tip::line(&planes, index);
+        if is_preview {
+            line = format!("Previewed g {}, h {}: {line}", facts.g, facts.h);
+        } else if let Some(first) = line.get_mut(0..1) {
+            first.make_ascii_uppercase();
+        }
+        ui.label(line);
     }
     notice::if_stale(ui, state, commands);
 }

@@ -15,6 +15,7 @@ use super::paint::Views;
 use super::palette::{Answer, Palette};
 use super::panes::Panes;
 use super::save_image::{self, SaveImage};
+use super::scrub::walks_by_rank;
 use super::{help, menu, status, theme};
 use crate::app::worker::Repaint;
 use crate::app::{App, Command, Session, command_line, quoted};
@@ -32,6 +33,10 @@ pub struct Start {
 }
 
 /// The window.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each says one thing that is so or not"
+)]
 pub struct Window {
     app: App,
     tree: Tree<Pane>,
@@ -229,7 +234,7 @@ impl Window {
         if is_covered || self.palette.is_some() || ctx.text_edit_focused() {
             return;
         }
-        let is_focused = ctx.memory(|m| m.focused()).is_some();
+        let is_focused = ctx.memory(egui::Memory::focused).is_some();
         // Those with more modifiers first: Shift + Left is also a Left.
         let mut keys: Vec<(&Action, egui::KeyboardShortcut)> = all
             .iter()
@@ -261,7 +266,13 @@ impl Window {
                 && action.is_enabled
                 && (is_first || action.repeats)
             {
-                acts.push(action.act.clone());
+                acts.push(match action.act {
+                    // As the bar under the view does.
+                    Act::App(Command::Step(by)) if by.abs() == 1 && walks_by_rank(ctx) => {
+                        Act::App(Command::StepRank(by))
+                    }
+                    _ => action.act.clone(),
+                });
             }
         }
     }
@@ -269,13 +280,13 @@ impl Window {
     fn act(&mut self, ctx: &egui::Context, act: WindowAct) {
         let answers = self.answers.0.clone();
         match act {
-            WindowAct::OpenFiles => dialogs::open_files(ctx, answers),
-            WindowAct::OpenFolder => dialogs::open_folder(ctx, answers),
+            WindowAct::OpenFiles => dialogs::open_files(ctx, &answers),
+            WindowAct::OpenFolder => dialogs::open_folder(ctx, &answers),
             WindowAct::SaveImage => self.saving = Some(SaveImage::new(view_size(self.app.state()))),
             WindowAct::SaveImageOf(size_px) => {
                 let name = self.app.state().source().map(|s| s.path().with_extension("png"));
                 let name = name.and_then(|n| n.file_name().map(|n| n.to_string_lossy().into_owned()));
-                dialogs::save_image(ctx, answers, name.as_deref().unwrap_or("view.png"), size_px);
+                dialogs::save_image(ctx, &answers, name.as_deref().unwrap_or("view.png"), size_px);
             }
             WindowAct::CopyCommandLine => {
                 let state = self.app.state();

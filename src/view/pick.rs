@@ -22,7 +22,8 @@ pub fn pick_point(
     let (origin, direction) = (ray.origin_in_world, ray.direction_in_world);
     let forward = camera.forward_in_world();
     let margin_px = radius_px.max(reach_px);
-    let (mut covering, mut near): (Option<(f64, usize)>, Option<(f64, usize)>) = (None, None);
+    let mut covering: Option<(f64, usize)> = None;
+    let mut near: Option<(f64, usize)> = None;
     for (i, &point) in shown.positions.iter().enumerate() {
         let to_point: DVec3 = point - origin;
         let depth = (point - camera.eye_in_world).dot(forward);

@@ -1,4 +1,5 @@
 //! A disk in memory that fails, or dies in the middle of writing, when it is told to.
+#![allow(dead_code, reason = "each test file uses some of it")]
 
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind};

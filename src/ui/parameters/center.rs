@@ -152,7 +152,7 @@ fn settings(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
                 let field = egui::DragValue::new(&mut search.seed)
                     .clamp_existing_to_range(false)
                     .update_while_editing(false)
-                    .speed(0.05)
+                    .speed(1.0)
                     .min_size(size);
                 ui.add(field).on_hover_text(tip).accessible_name("Seed")
             });

@@ -185,7 +185,7 @@ fn hue(ui: &mut Ui, edit: &mut Edit<'_>) {
                 name,
                 suffix: "°",
                 range: 0.0..=360.0,
-                speed: 0.5,
+                speed: 1.0,
                 decimals: 0,
                 width: 56.0,
             },

@@ -18,7 +18,7 @@ pub(super) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
             name: "Grid steps u",
             suffix: "",
             range: CandidateGrid::MIN_U as f64..=CandidateGrid::MAX_U as f64,
-            speed: 0.1,
+            speed: 1.0,
             decimals: 0,
             width: 56.0,
         },
