@@ -33,11 +33,11 @@ pub(super) struct Bench {
     /// Runs of each stage
     #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u8).range(1..))]
     runs: u8,
-    /// A program that scores planes by nanoflann, called as PROGRAM FILE U CX CY CZ UNIT_IN_CM: the file has
+    /// A program that scores planes by nanoflann, called as `PROGRAM FILE U CX CY CZ UNIT_IN_CM`: the file has
     /// x y z nx ny nz as 32-bit floats a point; it prints an object with `build_ms` and `score_ms`
     #[arg(long, value_name = "PROGRAM")]
     peer_nanoflann: Option<PathBuf>,
-    /// The Python whose Open3D and trimesh are measured, if it has them
+    /// The Python whose modules open3d and trimesh are measured, if it has them
     #[arg(long, value_name = "PROGRAM", default_value = "python3")]
     python: PathBuf,
 }
