@@ -377,6 +377,7 @@ fn a_cloud_that_cannot_be_analyzed_is_shown_all_the_same() {
     act(&mut app, Command::Open(vec![line]));
     let (shown, why) = app.state().unanalyzed.as_ref().expect("it was read");
     assert_eq!(shown.len(), 50);
+    let why = why.as_ref().expect("there is a reason");
     assert!(why.contains("on a line"), "{why}");
     assert_eq!(
         app.state().look.as_ref().expect("drawn").scene.points[0]
@@ -398,6 +399,44 @@ fn the_next_cloud_is_seen_from_where_the_last_one_was() {
     let moved = app.state().shown().expect("points").extent.center() - extent.center();
     assert!((after.eye_in_world - before.eye_in_world - moved).length() < 1e-9);
     assert!(moved.length() > 0.0);
+}
+
+#[test]
+fn a_large_cloud_is_shown_before_it_is_analyzed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("large.ply");
+    let mut bytes = b"ply\nformat binary_little_endian 1.0\nelement vertex 120000\nproperty float x\nproperty float y\nproperty float z\nend_header\n".to_vec();
+    for i in 0..120_000_u32 {
+        // Half a sphere in front of the camera, in centimeters.
+        let (a, z) = (f64::from(i) * 2.399_963, f64::from(i) / 120_000.0);
+        let r = (1.0 - z * z).sqrt();
+        for value in [4.0 * r * a.cos(), 4.0 * r * a.sin(), 40.0 - 4.0 * z] {
+            bytes.extend((value as f32).to_le_bytes());
+        }
+    }
+    std::fs::write(&path, bytes).expect("written");
+    let mut app = with_sample();
+    app.apply(Command::Open(vec![path]));
+    let mut was_bare = false;
+    while app
+        .state()
+        .walked
+        .as_ref()
+        .is_none_or(|w| w.fruit.cloud().len() != 120_000)
+    {
+        app.update(Duration::from_millis(5));
+        let bare = app
+            .state()
+            .unanalyzed
+            .as_ref()
+            .is_some_and(|(_, why)| why.is_none());
+        let look = app.state().look.as_ref();
+        was_bare |= bare && look.is_some_and(|l| l.shown.len() == 120_000 && l.analysis.is_none());
+    }
+    assert!(was_bare, "its points came before the result");
+    settle(&mut app);
+    assert!(app.state().unanalyzed.is_none());
+    assert_eq!(app.state().look.as_ref().expect("drawn").shown.len(), 120_000);
 }
 
 #[test]

@@ -114,6 +114,8 @@ impl App {
             return;
         }
         self.state.current = Some(place);
+        // A plane is chosen for one cloud; the next one begins with its best.
+        self.state.settings.plane = PlaneChoice::Best;
         self.state.is_playing = false;
         self.needs_framing = true;
     }

@@ -26,6 +26,7 @@ pub mod worker;
 mod written;
 
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
 use glam::DVec2;
@@ -34,7 +35,7 @@ use crate::evaluate::{compared, sentence};
 use crate::geometry::{Cancelled, Extent};
 use crate::method::PlaneDetail;
 use crate::render::{Camera, Viewport};
-use crate::view::pick_point;
+use crate::view::{ShownPoints, pick_point};
 
 use details::Details;
 use history::History;
@@ -58,6 +59,8 @@ const PATIENCE: Duration = Duration::from_millis(7);
 
 /// Planes that are played through in a second.
 const PLANES_PER_SECOND: f64 = 6.0;
+
+type Arrival = (Source, Arc<ShownPoints>);
 
 type WalkResult = (Stages, Result<Walked, WalkError>);
 
@@ -110,6 +113,9 @@ pub struct App {
     needs_framing: bool,
     /// The extent of the cloud that the camera was set for.
     framed: Option<Extent>,
+    /// Points that were read, before they are analyzed.
+    arrivals: (Sender<Arrival>, Receiver<Arrival>),
+    repaint: Repaint,
     /// The last click that was not answered yet.
     pending_click: Option<PickQuestion>,
 }
@@ -141,6 +147,8 @@ impl App {
             play_phase: 0.0,
             needs_framing: true,
             framed: None,
+            arrivals: channel(),
+            repaint: repaint.clone(),
             pending_click: None,
         })
     }
@@ -166,6 +174,7 @@ impl App {
     /// now. `elapsed` is the time since the last call.
     pub fn update(&mut self, elapsed: Duration) {
         self.play(elapsed);
+        self.take_arrivals();
         self.take_analysis(None);
         self.ask_for_analysis();
         self.ask_for_look();
@@ -231,11 +240,38 @@ impl App {
         }
         self.state.is_stale = self.state.walked.is_some();
         let mut stages = self.stages.clone();
+        let (arrivals, repaint) = (self.arrivals.0.clone(), self.repaint.clone());
+        // What another request was to show comes too late.
+        while self.arrivals.1.try_recv().is_ok() {}
         self.analysis.submit(move |watch| {
-            let result = stages.walk(&wanted.source, &wanted.settings, watch);
+            let arrived = |shown| {
+                // Nobody listens any more where the window has closed.
+                let _ = arrivals.send((wanted.source.clone(), shown));
+                repaint();
+            };
+            let result = stages.walk(&wanted.source, &wanted.settings, watch, &arrived);
             (stages, result)
         });
         self.take_analysis(Some(PATIENCE));
+    }
+
+    fn take_arrivals(&mut self) {
+        while let Ok((source, shown)) = self.arrivals.1.try_recv() {
+            let is_current = self.state.source() == Some(&source);
+            if is_current && self.analysis.progress().is_some() {
+                self.shown_generation += 1;
+                self.forget_analysis();
+                self.state.unanalyzed = Some((shown, None));
+                self.frame_if_new();
+            }
+        }
+    }
+
+    fn frame_if_new(&mut self) {
+        if self.needs_framing && self.state.shown().is_some() {
+            self.needs_framing = false;
+            self.frame_new_cloud();
+        }
     }
 
     fn take_analysis(&mut self, patience: Option<Duration>) {
@@ -295,7 +331,7 @@ impl App {
                 self.state.warnings.clone_from(&fruit.warnings);
                 self.forget_analysis();
                 let why = sentence(&format!("{}: {error}", self.name_of_current()));
-                self.state.unanalyzed = Some((shown, why));
+                self.state.unanalyzed = Some((shown, Some(why)));
             }
             Err(WalkError::Fruit(error)) => {
                 set_problem(Some(sentence(&error.reason())));
@@ -304,10 +340,7 @@ impl App {
             }
             Err(WalkError::Cancelled) => self.state.was_cancelled = true,
         }
-        if self.needs_framing && self.state.shown().is_some() {
-            self.needs_framing = false;
-            self.frame_new_cloud();
-        }
+        self.frame_if_new();
     }
 
     fn forget_analysis(&mut self) {

@@ -7,8 +7,10 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::evaluate::Request;
-use crate::geometry::Unit;
-use crate::io::{CloudFile, Fruit, FruitError, PeduncleChoice, ReadError, parse_cloud, read_cloud};
+use crate::geometry::{Unit, Watch};
+use crate::io::{
+    CloudFile, Fruit, FruitError, PeduncleChoice, ReadError, ReadErrorKind, parse_cloud, read_cloud_watched,
+};
 use crate::method::{
     Analysis, AnalysisError, CandidateGrid, CenterMethod, Filters, NormalSource, Observe, Params, PlaneTerms,
     Stage, UsedPoints, find_center, plane_terms, used_points,
@@ -44,9 +46,9 @@ impl Source {
             .into_owned()
     }
 
-    fn read(&self) -> Result<CloudFile, ReadError> {
+    fn read(&self, watch: &dyn Watch) -> Result<CloudFile, ReadError> {
         match self {
-            Self::File(path) => read_cloud(path),
+            Self::File(path) => read_cloud_watched(path, watch),
             Self::Bundled(sample) => parse_cloud(sample.path(), sample.bytes()),
         }
     }
@@ -81,6 +83,9 @@ struct PlanesKey {
     center: DVec3,
     u: usize,
 }
+
+/// Points from which on a cloud is shown before it is analyzed.
+const LARGE: usize = 100_000;
 
 /// Grids that are kept, so that going back to one is at once.
 const KEPT_GRIDS: usize = 12;
@@ -159,7 +164,8 @@ impl Stages {
         })
     }
 
-    /// Walks the cloud through every stage whose result is not kept.
+    /// Walks the cloud through every stage whose result is not kept. The points of a large cloud are
+    /// handed to `arrived` as soon as they are read: their analysis takes a while.
     ///
     /// # Errors
     /// Where the file gives no cloud, the cloud cannot be analyzed, or the work is called off.
@@ -168,9 +174,14 @@ impl Stages {
         source: &Source,
         request: &Request,
         observe: &dyn Observe,
+        arrived: &dyn Fn(Arc<ShownPoints>),
     ) -> Result<Walked, WalkError> {
         let fruit_key = FruitKey::new(source, request);
-        let fruit = self.fruit(&fruit_key)?;
+        let is_new = kept(self.fruit.as_ref(), &fruit_key).is_none();
+        let fruit = self.fruit(&fruit_key, observe)?;
+        if is_new && fruit.cloud().len() >= LARGE {
+            arrived(Arc::new(ShownPoints::bare(fruit.cloud())));
+        }
         if observe.is_cancelled() {
             return Err(WalkError::Cancelled);
         }
@@ -187,17 +198,16 @@ impl Stages {
             })
     }
 
-    fn fruit(&mut self, key: &FruitKey) -> Result<Arc<Fruit>, WalkError> {
+    fn fruit(&mut self, key: &FruitKey, watch: &dyn Watch) -> Result<Arc<Fruit>, WalkError> {
         if let Some(fruit) = kept(self.fruit.as_ref(), key) {
             return Ok(fruit);
         }
         let file = match kept(self.file.as_ref(), &key.source) {
             Some(file) => file,
-            None => Arc::new(
-                key.source
-                    .read()
-                    .map_err(|error| WalkError::Fruit(error.into()))?,
-            ),
+            None => Arc::new(key.source.read(watch).map_err(|error| match error.kind {
+                ReadErrorKind::Cancelled => WalkError::Cancelled,
+                _ => WalkError::Fruit(error.into()),
+            })?),
         };
         self.file = Some((key.source.clone(), file.clone()));
         let mut fruit = Fruit::of_file(file, key.unit, &key.peduncle).map_err(WalkError::Fruit)?;

@@ -109,8 +109,8 @@ pub struct State {
     pub can_redo: bool,
     /// The newest analysis, which may be of older settings.
     pub walked: Option<Arc<Walked>>,
-    /// A cloud that was read but not analyzed, and why.
-    pub unanalyzed: Option<(Arc<ShownPoints>, String)>,
+    /// A cloud that was read but not analyzed, and why: `None` where it only is not yet.
+    pub unanalyzed: Option<(Arc<ShownPoints>, Option<String>)>,
     /// The axes to compare with.
     pub references: Vec<AxisEstimate>,
     /// Which of them the error is measured against.

@@ -24,12 +24,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 /// Axiscope implements the pose estimation of Li et al., Sensors 18 (2018) 3083: from a point cloud
 /// of a fruit, seen by one depth camera, to its symmetry plane and axis.
 #[derive(Debug, Parser)]
-#[command(
-    name = "axiscope",
-    version,
-    max_term_width = 100,
-    args_conflicts_with_subcommands = true
-)]
+#[command(name = "axiscope", version, max_term_width = 100)]
 struct Cli {
     /// Point clouds (PLY) or folders to open in the window; a sample where nothing is named
     #[cfg(feature = "window")]
@@ -91,6 +86,13 @@ pub(crate) fn main() -> ExitCode {
 fn run(cli: Cli) -> anyhow::Result<()> {
     if let Some(threads) = cli.threads {
         use_threads(threads.into())?;
+    }
+    #[cfg(feature = "window")]
+    if let (Some(_), Some(path)) = (&cli.command, cli.paths.first()) {
+        return Err(usage_error(&format!(
+            "“{}” stands before the command: name clouds behind it",
+            path.display()
+        )));
     }
     let Some(command) = cli.command else {
         #[cfg(feature = "window")]

@@ -178,7 +178,7 @@ fn cursor_lines(state: &State, pixels_per_point: f32) -> Vec<Line> {
 fn notices(ui: &egui::Ui, rect: Rect, state: &State) {
     let mut lines: Vec<String> = Vec::new();
     if let Some((_, why)) = &state.unanalyzed {
-        lines.push(why.clone());
+        lines.push(why.clone().unwrap_or_else(|| "Not analyzed yet …".into()));
     }
     if let Some(why) = state.look.as_ref().and_then(|look| look.fallback) {
         let why = why.to_string();
@@ -188,7 +188,15 @@ fn notices(ui: &egui::Ui, rect: Rect, state: &State) {
         lines.push(if state.was_cancelled {
             "This is the result of the settings before: the analysis was called off.".into()
         } else {
-            "This is still the result of the settings before …".into()
+            match (&state.walked, state.source()) {
+                (Some(walked), Some(source)) if walked.fruit.file.path != source.path() => {
+                    format!(
+                        "This is still the cloud before; {} is being read …",
+                        source.name()
+                    )
+                }
+                _ => "This is still the result of the settings before …".into(),
+            }
         });
     }
     if state.tool == Tool::MoveCenter {

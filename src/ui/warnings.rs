@@ -8,7 +8,7 @@ use crate::app::{Command, State};
 /// Shows why there is no result, and what makes one less certain.
 pub fn show(ui: &mut Ui, state: &State, _commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 4.0;
-    let unanalyzed = state.unanalyzed.as_ref().map(|(_, why)| why);
+    let unanalyzed = state.unanalyzed.as_ref().and_then(|(_, why)| why.as_ref());
     if let Some(why) = unanalyzed {
         line(ui, why, true);
     }
@@ -26,7 +26,7 @@ pub fn show(ui: &mut Ui, state: &State, _commands: &mut Vec<Command>) {
 
 /// How many lines there are: for a badge on the panel's title.
 pub fn count(state: &State) -> usize {
-    state.warnings.len() + usize::from(state.unanalyzed.is_some())
+    state.warnings.len() + usize::from(state.unanalyzed.as_ref().is_some_and(|(_, why)| why.is_some()))
 }
 
 fn line(ui: &mut Ui, text: &str, is_failure: bool) {

@@ -55,6 +55,9 @@ pub struct Window {
     is_gpu: bool,
     is_software: bool,
     title: String,
+    /// Whether the time that each frame takes goes to standard error.
+    tells_frames: bool,
+    last_ui: Option<Instant>,
 }
 
 impl Window {
@@ -79,6 +82,7 @@ impl Window {
         };
         let layout = start.session.layout.as_deref().and_then(layout_from);
         let (open, current) = (start.session.open.clone(), start.session.current);
+        let plane = start.session.settings.plane;
         let mut app = App::new(start.session, &repaint)?;
         if let Some(problem) = start.problem {
             app.apply(Command::Say {
@@ -93,6 +97,7 @@ impl Window {
                 open.into_iter().filter(|path| path.exists()).collect(),
             ));
             app.apply(Command::Show(current.unwrap_or(0)));
+            app.apply(Command::LookAt(plane));
         }
         if app.state().current.is_none() {
             app.apply(Command::OpenSample(crate::app::Sample::Pepper));
@@ -114,6 +119,8 @@ impl Window {
             is_gpu,
             is_software,
             title: String::new(),
+            tells_frames: std::env::var_os("AXISCOPE_FRAMES").is_some(),
+            last_ui: None,
         })
     }
 
@@ -378,8 +385,20 @@ impl eframe::App for Window {
         self.keep(false, size);
     }
 
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        let began = Instant::now();
         self.frame(ui);
+        if self.tells_frames {
+            let since = self.last_ui.map_or(Duration::ZERO, |last| began - last);
+            let drawing = frame.info().cpu_usage.unwrap_or(0.0);
+            eprintln!(
+                "frame after {:.1} ms: panels {:.2} ms, the frame before {:.2} ms in all",
+                1e3 * since.as_secs_f64(),
+                1e3 * began.elapsed().as_secs_f64(),
+                1e3 * drawing,
+            );
+            self.last_ui = Some(began);
+        }
     }
 
     fn on_exit(&mut self) {

@@ -242,7 +242,14 @@ fn a_cloud_that_cannot_be_analyzed_says_why() {
         let mut bench = bench(panel, None);
         bench.apply(Command::Open(vec![path.clone()]));
         bench.apply(Command::Pick(Some(1)));
-        let why = bench.app.state().unanalyzed.clone().expect("too few points").1;
+        let why = bench
+            .app
+            .state()
+            .unanalyzed
+            .clone()
+            .expect("too few points")
+            .1
+            .expect("a reason");
         let harness = dark(bench, [300.0, 700.0]);
         match panel {
             Panel::Warnings => assert!(harness.query_by_label(&why).is_some()),

@@ -19,10 +19,27 @@ pub(super) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
     let is_reset = section(ui, "Filters", false, differs, |ui| {
         outliers(ui, edit);
         voxels(ui, edit);
+        sample(ui, edit);
     });
     if is_reset {
         edit.request.params.filters = Filters::default();
     }
+}
+
+fn sample(ui: &mut Ui, edit: &mut Edit<'_>) {
+    let tip = "Of a cloud of more points a sample of at most so many is analyzed, thinned evenly by a voxel grid; \
+               the result says so, and all points are colored by it.";
+    let most = &mut edit.request.params.filters.max_points;
+    let response = row(ui, "At most", tip, |ui| {
+        count(
+            ui,
+            "Points that are analyzed at most",
+            most,
+            Filters::FEWEST..=100_000_000,
+            tip,
+        )
+    });
+    edit.note(&response, "sample");
 }
 
 fn outliers(ui: &mut Ui, edit: &mut Edit<'_>) {
