@@ -360,10 +360,7 @@ fn views_look_where_they_say() {
     press(&mut harness, Modifiers::ALT, Key::Num4);
     let top = harness.state().app().state().camera.forward_in_world();
     assert!(top.y > 0.999, "{top}");
-    harness.get_by_label("Look from").click();
-    settle(&mut harness);
-    harness.get_by_label_contains("Side").click();
-    settle(&mut harness);
+    press(&mut harness, Modifiers::ALT, Key::Num3);
     let side = harness.state().app().state().camera.forward_in_world();
     assert!(side.x < -0.999, "{side}");
     apply(&mut harness, Command::View(ViewPreset::Normal));

@@ -42,6 +42,11 @@ impl Views {
 #[derive(Default)]
 struct View {
     canvas: Canvas,
+    /// What is drawn with half the pixels each way while the camera moves, where the processor draws:
+    /// most of its time goes into pixels.
+    coarse: Canvas,
+    shows_coarse: bool,
+    camera: Option<Camera>,
     drawn: Option<Drawn>,
     pace: Pace,
     lines_generation: u64,
@@ -120,6 +125,14 @@ impl CallbackTrait for ViewCallback {
             return Vec::new();
         };
         let view = views.entry(self.view).or_default();
+        let is_moving = view.camera.is_some_and(|last| last != self.camera);
+        view.camera = Some(self.camera);
+        if is_moving && self.is_software {
+            self.draw_coarse(renderer, view, device, queue, encoder);
+            self.ctx.request_repaint();
+            return Vec::new();
+        }
+        view.shows_coarse = false;
         let total = self
             .scene
             .points
@@ -183,7 +196,44 @@ impl CallbackTrait for ViewCallback {
     ) {
         let views = resources.get::<Views>();
         if let Some((views, view)) = views.and_then(|v| Some((v, v.views.get(&self.view)?))) {
-            view.canvas.composite(&views.renderer, pass);
+            let canvas = if view.shows_coarse {
+                &view.coarse
+            } else {
+                &view.canvas
+            };
+            canvas.composite(&views.renderer, pass);
         }
     }
 }
+
+impl ViewCallback {
+    /// A quick picture while the camera moves; the next frame without a movement is drawn in full.
+    fn draw_coarse(
+        &self,
+        renderer: &Renderer,
+        view: &mut View,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+    ) {
+        let mut scene = (*self.scene).clone();
+        scene.lines.extend(&self.lines);
+        scene.scale_lines(0.5);
+        for points in &mut scene.points {
+            points.size_px = (0.5 * points.size_px).max(1.0);
+        }
+        view.lines_generation += 1;
+        scene.lines_generation = u64::MAX - view.lines_generation;
+        let extract = Extract {
+            points: 0..view.pace.next(Instant::now(), true).min(MOVING_POINTS),
+            ..Extract::whole(self.size_px.map(|side| side.div_ceil(2)), 1)
+        };
+        view.coarse
+            .draw(renderer, device, queue, encoder, &scene, &self.camera, &extract);
+        view.shows_coarse = true;
+        view.drawn = None;
+    }
+}
+
+/// Points that are enough for a picture of half the pixels.
+const MOVING_POINTS: usize = 60_000;
