@@ -30,7 +30,7 @@ fn sample(ui: &mut Ui, edit: &mut Edit<'_>) {
     let tip = "Of a cloud of more points a sample of at most so many is analyzed, thinned evenly by a voxel grid; \
                the result says so, and all points are colored by it.";
     let most = &mut edit.request.params.filters.max_points;
-    let response = row(ui, "At most", tip, |ui| {
+    let response = row(ui, "Most points", tip, |ui| {
         count(
             ui,
             "Points that are analyzed at most",
