@@ -100,7 +100,7 @@ impl Canvas {
         let drawn_px = extract
             .size_px
             .map(|side| (side.max(1) * oversampling).min(largest));
-        self.upload(renderer, device, queue, scene, camera);
+        self.upload(renderer, device, queue, scene, camera, extract.points.end);
         self.upload_view(renderer, device, queue, scene, camera, drawn_px, oversampling);
         let is_fresh = extract.points.start == 0;
         if self.targets.as_ref().is_none_or(|t| t.size_px != drawn_px) {
@@ -195,13 +195,14 @@ impl Canvas {
         queue: &wgpu::Queue,
         scene: &Scene,
         camera: &Camera,
+        upto: usize,
     ) {
         self.points.truncate(scene.points.len());
         while self.points.len() < scene.points.len() {
             self.points.push(PointsUpload::new(device, renderer));
         }
         for (upload, points) in self.points.iter_mut().zip(&scene.points) {
-            upload.update(device, queue, points);
+            upload.update(device, queue, points, upto);
         }
         let origin = scene.origin_in_world;
         let state = (

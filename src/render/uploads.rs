@@ -1,13 +1,14 @@
 //! What was sent to the GPU, and whether it is still what the scene holds.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use super::scene::{Dash, Line, Points, Polygon};
 use super::{Color, Renderer};
 
-/// Points a buffer: 48 MiB of positions, well below what every adapter takes.
-const CHUNK: usize = 1 << 22;
+/// Points a buffer: few enough that sending one takes some milliseconds, so that a large cloud can be
+/// sent over several frames.
+const CHUNK: usize = 1 << 18;
 
 /// A line as the shader reads it.
 #[repr(C)]
@@ -103,14 +104,14 @@ impl GrowingBuffer {
 /// One chunk of a cloud.
 pub(super) struct Chunk {
     pub(super) count: usize,
+    positions_generation: Option<u64>,
+    colors_generation: Option<u64>,
     pub(super) positions: GrowingBuffer,
     pub(super) colors: GrowingBuffer,
 }
 
 /// One cloud of points on the GPU.
 pub(super) struct PointsUpload {
-    positions_generation: Option<u64>,
-    colors_generation: Option<u64>,
     count: usize,
     pub(super) chunks: Vec<Chunk>,
     look: wgpu::Buffer,
@@ -134,8 +135,6 @@ impl PointsUpload {
             }],
         });
         Self {
-            positions_generation: None,
-            colors_generation: None,
             count: 0,
             chunks: Vec::new(),
             look,
@@ -143,51 +142,61 @@ impl PointsUpload {
         }
     }
 
-    /// Sends what has changed. No work is done a point where nothing has.
-    pub(super) fn update(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, points: &Points) {
+    /// Sends what has changed of the first `upto` points, in the order in which they are drawn. No work
+    /// is done a point where nothing has.
+    pub(super) fn update(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        points: &Points,
+        upto: usize,
+    ) {
         queue.write_buffer(
             &self.look,
             0,
             bytemuck::cast_slice(&[points.size_px, 0.0, 0.0, 0.0]),
         );
         let count = points.positions.len().min(points.colors.len());
-        let new_positions =
-            self.positions_generation != Some(points.positions_generation) || self.count != count;
-        let new_colors = self.colors_generation != Some(points.colors_generation) || self.count != count;
-        if !new_positions && !new_colors {
-            return;
+        if count != self.count {
+            self.count = count;
+            self.chunks.clear();
         }
         let stride = even_stride(count);
         let order = |i: usize| (i as u128 * stride as u128 % count as u128) as usize;
         let chunk_count = count.div_ceil(CHUNK);
-        self.chunks.truncate(chunk_count);
         while self.chunks.len() < chunk_count {
             self.chunks.push(Chunk {
-                count: 0,
+                count: CHUNK.min(count - CHUNK * self.chunks.len()),
+                positions_generation: None,
+                colors_generation: None,
                 positions: GrowingBuffer::default(),
                 colors: GrowingBuffer::default(),
             });
         }
         for (index, chunk) in self.chunks.iter_mut().enumerate() {
-            let range = index * CHUNK..((index + 1) * CHUNK).min(count);
-            chunk.count = range.len();
-            if new_positions {
-                let positions: Vec<Vec3> = range.clone().map(|i| points.positions[order(i)]).collect();
-                let flat: Vec<[f32; 3]> = positions.iter().map(Vec3::to_array).collect();
+            let first = index * CHUNK;
+            if first >= upto {
+                break;
+            }
+            let range = first..first + chunk.count;
+            if chunk.positions_generation != Some(points.positions_generation) {
+                let flat: Vec<[f32; 3]> = range
+                    .clone()
+                    .map(|i| points.positions[order(i)].to_array())
+                    .collect();
                 chunk
                     .positions
                     .write(device, queue, "positions", bytemuck::cast_slice(&flat));
+                chunk.positions_generation = Some(points.positions_generation);
             }
-            if new_colors {
+            if chunk.colors_generation != Some(points.colors_generation) {
                 let colors: Vec<Color> = range.map(|i| points.colors[order(i)]).collect();
                 chunk
                     .colors
                     .write(device, queue, "colors", bytemuck::cast_slice(&colors));
+                chunk.colors_generation = Some(points.colors_generation);
             }
         }
-        self.count = count;
-        self.positions_generation = Some(points.positions_generation);
-        self.colors_generation = Some(points.colors_generation);
     }
 }
 

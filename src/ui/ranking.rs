@@ -27,10 +27,10 @@ impl Column {
         Self::G,
         Self::H,
         Self::Score,
+        Self::Error,
         Self::Partners,
         Self::DistanceSum,
         Self::AngleSum,
-        Self::Error,
     ];
 
     fn title(self) -> &'static str {
