@@ -17,7 +17,7 @@ pub(super) fn draw(state: &State, look: &Look, [width_px, height_px]: [u32; 2]) 
     for points in &mut scene.points {
         points.size_px *= ratio;
     }
-    scene.scale_lines(crate::view::line_scale(height_px));
+    scene.scale_lines(crate::view::line_scale(height_px) / state.pixels_per_point);
     let gpu = Gpu::headless().map_err(|e| e.to_string())?;
     let mut image =
         draw_image(&gpu, &scene, &state.camera, width_px, height_px).map_err(|e| e.to_string())?;

@@ -225,7 +225,8 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
             }
         }
     }
-    let scene = build_scene(subject, &colored, &settings);
+    let mut scene = build_scene(subject, &colored, &settings);
+    scene.scale_lines(pixels_per_point);
     let contributions = detail
         .as_ref()
         .and_then(|detail| Contributions::of(detail, params.tau_cm_per_rad));

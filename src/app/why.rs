@@ -182,7 +182,7 @@ pub fn why_lines(why: &Why, size: f64, theme: Theme) -> Vec<Line> {
     let edge = theme.background().bottom;
     let disc = |at: DVec3, color: Color, width_px: f32| {
         Line::new(at, at, color, width_px)
-            .outlined(edge, 1.5)
+            .outlined(theme.ink(), 2.0)
             .shining_through(0.9)
     };
     let line = |from: DVec3, to: DVec3, color: Color, width_px: f32| {
