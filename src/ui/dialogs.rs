@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::mpsc::Sender;
+use std::time::{Duration, Instant};
 
 use rfd::{AsyncFileDialog, FileHandle};
 
@@ -46,6 +47,10 @@ pub(super) fn save_image(ctx: &egui::Context, answers: &Sender<Asked>, name: &st
     });
 }
 
+/// What is said where the desktop has no dialogs; that is not told apart from a refusal otherwise.
+const NO_DIALOG: &str = "This desktop offers no file dialogs (xdg-desktop-portal or zenity would). Drop files on the window, \
+                         or name them on the command line; “axiscope render” draws pictures.";
+
 fn path_of(handle: &FileHandle) -> PathBuf {
     handle.path().to_owned()
 }
@@ -59,7 +64,13 @@ fn wait(
     let ctx = ctx.clone();
     let waiting = answers.clone();
     let thread = std::thread::Builder::new().name("dialog".into()).spawn(move || {
-        if let Some(answer) = pollster::block_on(answer) {
+        let asked = Instant::now();
+        let answer = pollster::block_on(answer).or_else(|| {
+            // Nobody is so quick to say no: there was no dialog.
+            let is_missing = asked.elapsed() < Duration::from_millis(400);
+            is_missing.then(|| Asked::Failed(NO_DIALOG.into()))
+        });
+        if let Some(answer) = answer {
             // Nobody listens any more where the window has closed meanwhile.
             let _ = waiting.send(answer);
             ctx.request_repaint();
