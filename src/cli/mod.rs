@@ -130,10 +130,14 @@ fn run(cli: Cli) -> anyhow::Result<()> {
 #[cfg(feature = "window")]
 fn open_window(paths: Vec<std::path::PathBuf>) -> anyhow::Result<()> {
     if let Some(missing) = paths.iter().find(|path| !path.exists()) {
-        anyhow::bail!(
-            "{}: there is no such file or folder, and no such command; `axiscope --help` lists the commands",
-            missing.display()
-        );
+        // A bare word was meant as a command.
+        if missing.extension().is_none() && missing.components().count() == 1 {
+            return Err(usage_error(&format!(
+                "there is no command “{}”, nor a file or folder of that name; `axiscope --help` lists the commands",
+                missing.display()
+            )));
+        }
+        anyhow::bail!("{}: there is no such file or folder", missing.display());
     }
     Ok(axiscope::ui::open_window(paths)?)
 }
