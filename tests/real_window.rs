@@ -125,3 +125,27 @@ fn without_a_display_it_says_what_to_do() {
     );
     assert!(!said.contains("panicked"), "{said}");
 }
+
+#[test]
+fn without_a_driver_it_says_what_to_install() {
+    let screen = Screen::open();
+    let home = tempfile::tempdir().expect("a folder");
+    let output = Command::new(env!("CARGO_BIN_EXE_axiscope"))
+        .env("DISPLAY", &screen.name)
+        .env_remove("WAYLAND_DISPLAY")
+        .env("HOME", home.path())
+        .env("XDG_CONFIG_HOME", home.path())
+        .env("XDG_RUNTIME_DIR", home.path())
+        // No Vulkan driver lies there; OpenGL may be as good as it likes.
+        .env("VK_DRIVER_FILES", "/no/such/driver.json")
+        .env("VK_ICD_FILENAMES", "/no/such/driver.json")
+        .output()
+        .expect("it starts");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("mesa-vulkan-drivers") && said.contains("axiscope render"),
+        "{said}"
+    );
+    assert!(!said.contains("panicked"), "{said}");
+}

@@ -81,7 +81,7 @@ impl Gpu {
     }
 
     fn named(wanted: &str) -> Result<Self, GpuError> {
-        let adapters = pollster::block_on(instance().enumerate_adapters(wgpu::Backends::all()));
+        let adapters = pollster::block_on(instance().enumerate_adapters(wgpu::Backends::PRIMARY));
         if adapters.is_empty() {
             return Err(GpuError::NoAdapter);
         }
@@ -121,5 +121,8 @@ impl Gpu {
 }
 
 fn instance() -> wgpu::Instance {
-    wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    // The shaders need more than OpenGL offers.
+    descriptor.backends &= wgpu::Backends::PRIMARY;
+    wgpu::Instance::new(descriptor)
 }

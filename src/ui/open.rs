@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+
 use super::window::{Start, Window};
 use crate::app::Session;
 
@@ -41,6 +43,9 @@ pub fn open_window(paths: Vec<PathBuf>) -> Result<(), OpenError> {
         Some(Err(error)) => (Session::first(), Some(format!("{error}."))),
     };
     let size = session.window_size.unwrap_or([1360.0, 860.0]);
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    // What OpenGL can do is not enough to draw points: better a sentence than a fault.
+    setup.instance_descriptor.backends &= wgpu::Backends::PRIMARY;
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Axiscope")
@@ -49,6 +54,10 @@ pub fn open_window(paths: Vec<PathBuf>) -> Result<(), OpenError> {
             .with_min_inner_size([640.0, 420.0])
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,
+        wgpu_options: WgpuConfiguration {
+            wgpu_setup: WgpuSetup::CreateNew(setup),
+            ..Default::default()
+        },
         persist_window: false,
         ..Default::default()
     };
