@@ -447,6 +447,74 @@ fn no_two_actions_share_a_key_and_every_one_is_in_the_help() {
     }
 }
 
+/// A file as the desktop drops it.
+#[derive(Debug)]
+struct Dropped(std::path::PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Err("files are opened by their paths".into())
+    }
+}
+
+#[test]
+fn dropped_files_are_opened() {
+    let mut harness = window();
+    let dropped = [asset("ellipsoid.ply"), asset("pepper_missed.ply")];
+    harness.input_mut().dropped_files = dropped
+        .iter()
+        .map(|path| std::sync::Arc::new(Dropped(path.clone())) as _)
+        .collect();
+    settle(&mut harness);
+    let state = harness.state().app().state();
+    assert_eq!(state.entries.len(), 2, "the sample has made room");
+    assert_eq!(
+        state.source().map(axiscope::app::Source::path),
+        Some(&*dropped[0])
+    );
+    assert!(state.walked.is_some());
+    assert_eq!(state.recent.len(), 2);
+}
+
+#[test]
+fn a_window_comes_back_as_it_was_left() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("session.json");
+    let open = |session, paths| {
+        let start = Start {
+            session,
+            session_path: Some(path.clone()),
+            paths,
+            problem: None,
+        };
+        let mut harness = Harness::builder()
+            .with_size(Vec2::new(1200.0, 800.0))
+            .wgpu()
+            .build_eframe(move |context| Window::new(context, start).expect("threads can be started"));
+        settle(&mut harness);
+        harness
+    };
+    let files = vec![asset("pepper.ply"), asset("pepper_missed.ply")];
+    let mut first = open(Session::first(), files);
+    press(&mut first, Modifiers::NONE, Key::PageDown);
+    press(&mut first, Modifiers::SHIFT, Key::I);
+    press(&mut first, Modifiers::NONE, Key::ArrowRight);
+    press(&mut first, Modifiers::NONE, Key::T);
+    eframe::App::on_exit(first.state_mut());
+    let left = first.state().app().state().clone();
+
+    let second = open(Session::read(&path).expect("it was kept"), Vec::new());
+    let state = second.state().app().state();
+    assert_eq!(state.settings, left.settings);
+    assert_eq!(state.style, left.style);
+    assert_eq!((state.entries.len(), state.current), (2, Some(1)));
+    assert_eq!(state.chosen_plane_index(), left.chosen_plane_index());
+}
+
 #[test]
 fn every_sample_opens() {
     let mut harness = window();
