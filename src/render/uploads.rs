@@ -8,7 +8,7 @@ use super::{Color, Renderer};
 
 /// Points a buffer: few enough that sending one takes some milliseconds, so that a large cloud can be
 /// sent over several frames.
-const CHUNK: usize = 1 << 18;
+const CHUNK: usize = 1 << 17;
 
 /// A line as the shader reads it.
 #[repr(C)]
@@ -162,7 +162,11 @@ impl PointsUpload {
             self.chunks.clear();
         }
         let stride = even_stride(count);
-        let order = |i: usize| (i as u128 * stride as u128 % count as u128) as usize;
+        // One step after the other: a remainder for each point would take most of the time.
+        let order_from = |first: usize| {
+            let begin = (first as u128 * stride as u128 % count.max(1) as u128) as usize;
+            std::iter::successors(Some(begin), move |&place| Some((place + stride) % count))
+        };
         let chunk_count = count.div_ceil(CHUNK);
         while self.chunks.len() < chunk_count {
             self.chunks.push(Chunk {
@@ -178,11 +182,10 @@ impl PointsUpload {
             if first >= upto {
                 break;
             }
-            let range = first..first + chunk.count;
             if chunk.positions_generation != Some(points.positions_generation) {
-                let flat: Vec<[f32; 3]> = range
-                    .clone()
-                    .map(|i| points.positions[order(i)].to_array())
+                let flat: Vec<[f32; 3]> = order_from(first)
+                    .take(chunk.count)
+                    .map(|place| points.positions[place].to_array())
                     .collect();
                 chunk
                     .positions
@@ -190,7 +193,10 @@ impl PointsUpload {
                 chunk.positions_generation = Some(points.positions_generation);
             }
             if chunk.colors_generation != Some(points.colors_generation) {
-                let colors: Vec<Color> = range.map(|i| points.colors[order(i)]).collect();
+                let colors: Vec<Color> = order_from(first)
+                    .take(chunk.count)
+                    .map(|place| points.colors[place])
+                    .collect();
                 chunk
                     .colors
                     .write(device, queue, "colors", bytemuck::cast_slice(&colors));
