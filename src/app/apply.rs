@@ -26,7 +26,7 @@ impl App {
             Command::Go(by) => self.go(by),
             Command::Close => self.close(),
             Command::Reload => {
-                self.stages = super::Stages::default();
+                self.discard.take(std::mem::take(&mut self.stages));
                 self.turn += 1;
             }
 

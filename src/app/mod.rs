@@ -42,7 +42,7 @@ use history::History;
 use look::{Look, Question, Style, look};
 use navigate::framed_camera;
 use stages::{Stages, WalkError};
-use worker::{Crashed, Lane, Repaint};
+use worker::{Crashed, Discard, Lane, Repaint};
 
 pub use caption::{caption, lead_in_words};
 pub use command_line::{analysis_options, command_line, quoted};
@@ -102,6 +102,7 @@ pub struct App {
     looks: Lane<Result<Look, Cancelled>>,
     picks: Lane<(PickQuestion, Option<usize>)>,
     images: Lane<Result<String, String>>,
+    discard: Discard,
     asked: Option<Asked>,
     seen: Option<Seen>,
     shown_generation: u64,
@@ -139,6 +140,7 @@ impl App {
             looks: Lane::new("look", repaint.clone())?,
             picks: Lane::new("pick", repaint.clone())?,
             images: Lane::new("image", repaint.clone())?,
+            discard: Discard::new()?,
             asked: None,
             seen: None,
             shown_generation: 0,
@@ -282,7 +284,7 @@ impl App {
         match taken {
             None => {}
             Some((_, Ok((stages, result)))) => {
-                self.stages = stages;
+                self.discard.take(std::mem::replace(&mut self.stages, stages));
                 self.accept(result);
             }
             Some((_, Err(Crashed(fault)))) => {
@@ -322,8 +324,8 @@ impl App {
                     self.state.previewed = None;
                 }
                 (self.state.references, self.state.warnings) = (references, warnings);
-                self.state.walked = Some(Arc::new(walked));
-                self.state.unanalyzed = None;
+                self.discard.take(self.state.walked.replace(Arc::new(walked)));
+                self.discard.take(self.state.unanalyzed.take());
                 self.state.is_stale = false;
             }
             Err(WalkError::Analysis { fruit, shown, error }) => {
@@ -345,8 +347,8 @@ impl App {
 
     fn forget_analysis(&mut self) {
         self.details.clear();
-        self.state.walked = None;
-        self.state.unanalyzed = None;
+        self.discard
+            .take((self.state.walked.take(), self.state.unanalyzed.take()));
         self.state.references.clear();
         self.state.is_stale = false;
         self.state.previewed = None;
@@ -363,7 +365,7 @@ impl App {
             self.accept_look(result);
         }
         let Some(shown) = self.state.shown().cloned() else {
-            self.state.look = None;
+            self.discard.take(self.state.look.take());
             self.seen = None;
             return;
         };
@@ -409,7 +411,7 @@ impl App {
                 if let (Some(index), Some(detail), true) = (look.plane_index, &look.detail, is_newest) {
                     self.details.keep(index, detail.clone());
                 }
-                self.state.look = Some(Arc::new(look));
+                self.discard.take(self.state.look.replace(Arc::new(look)));
             }
             Ok(Err(Cancelled)) => return,
             Err(crash) => self.say(true, sentence(&format!("the view broke off by {crash}"))),

@@ -3,6 +3,7 @@
 //! The only place in the program that starts a thread and waits for one; a browser build replaces it.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -81,6 +82,32 @@ impl Observe for JobWatch {
         *locked(&self.stage) = Some(stage);
         self.total.store(0, Ordering::Relaxed);
         self.done.store(0, Ordering::Relaxed);
+    }
+}
+
+/// Frees what is no longer needed beside the interface: a large cloud's memory takes a tenth of a second
+/// to give back.
+pub struct Discard {
+    to: Sender<Box<dyn Send>>,
+}
+
+impl Discard {
+    /// Starts its thread, which ends with it.
+    ///
+    /// # Errors
+    /// Where the operating system starts no thread.
+    pub fn new() -> std::io::Result<Self> {
+        let (to, from) = channel::<Box<dyn Send>>();
+        std::thread::Builder::new()
+            .name("discard".into())
+            .spawn(move || from.into_iter().for_each(drop))?;
+        Ok(Self { to })
+    }
+
+    /// Frees it soon, if nobody else holds it.
+    pub fn take(&self, what: impl Send + 'static) {
+        // Where the thread is gone it is freed here.
+        let _ = self.to.send(Box::new(what));
     }
 }
 
