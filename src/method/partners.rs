@@ -32,10 +32,11 @@ pub(super) struct Partners {
 /// A surface's points and normals in an order in which each point lies close to the one before it,
 /// coordinate by coordinate.
 pub(super) struct Ordered<'a> {
-    surface: &'a Surface,
     neighbors: &'a Neighbors,
     points: [Vec<f64>; 3],
     normals: [Vec<f64>; 3],
+    /// The normals of the tree's places, in its order.
+    normals_at: Vec<DVec3>,
 }
 
 impl<'a> Ordered<'a> {
@@ -44,10 +45,14 @@ impl<'a> Ordered<'a> {
         let neighbors = surface.neighbors()?;
         let column = |of: &[DVec3], e: usize| neighbors.order().iter().map(|&i| of[i as usize][e]).collect();
         Some(Self {
-            surface,
             neighbors,
             points: std::array::from_fn(|e| column(surface.points(), e)),
             normals: std::array::from_fn(|e| column(surface.normals(), e)),
+            normals_at: neighbors
+                .first()
+                .iter()
+                .map(|&i| surface.normals()[i as usize])
+                .collect(),
         })
     }
 
@@ -75,10 +80,12 @@ impl pulp::NullaryFnOnce for FindPartners<'_> {
 
     #[inline(always)]
     fn call(self) -> Partners {
-        let mut reflected = Vec::with_capacity(self.range.len());
-        let mut reflected_normals = Vec::with_capacity(self.range.len());
-        let mut found = Partners::default();
-        found.point.reserve(self.range.len());
+        // Each block of lanes is written whole and then partly written over: no branch a point.
+        let room = self.range.len() + LANES;
+        let mut point = vec![0; room];
+        let mut reflected = [vec![0.0; room], vec![0.0; room], vec![0.0; room]];
+        let mut normals = [vec![0.0; room], vec![0.0; room], vec![0.0; room]];
+        let mut count = 0;
         let order = self.of.neighbors.order();
         for from in self.range.clone().step_by(LANES) {
             let lanes = from..(from + LANES).min(self.range.end);
@@ -87,34 +94,59 @@ impl pulp::NullaryFnOnce for FindPartners<'_> {
                 gather(&self.of.normals, lanes.clone()),
             );
             let (p, n, facing) = self.reflect(p, n);
-            for i in 0..lanes.len() {
-                if facing[i] > 0.0 {
-                    found.point.push(order[from + i]);
-                    reflected.push(DVec3::new(p[0][i], p[1][i], p[2][i]));
-                    reflected_normals.push(DVec3::new(n[0][i], n[1][i], n[2][i]));
+            let mut seen = 0;
+            for i in 0..LANES {
+                seen += u32::from(facing[i] > 0.0);
+            }
+            // Neighbors are mostly seen, or not, together.
+            if seen == 0 {
+                continue;
+            }
+            if seen as usize == LANES && lanes.len() == LANES {
+                point[count..count + LANES].copy_from_slice(&order[lanes]);
+                for e in 0..3 {
+                    reflected[e][count..count + LANES].copy_from_slice(&p[e]);
+                    normals[e][count..count + LANES].copy_from_slice(&n[e]);
                 }
+                count += LANES;
+                continue;
+            }
+            for i in 0..lanes.len() {
+                point[count] = order[from + i];
+                for e in 0..3 {
+                    reflected[e][count] = p[e][i];
+                    normals[e][count] = n[e][i];
+                }
+                count += usize::from(facing[i] > 0.0);
             }
         }
-        let nearest = self.of.neighbors.nearest_of_each(&reflected);
-        found.index.reserve(nearest.len());
-        found.distance.reserve(nearest.len());
-        found.angle_rad.reserve(nearest.len());
-        let normals = self.of.surface.normals();
-        for (nearest, reflected) in nearest.chunks(LANES).zip(reflected_normals.chunks(LANES)) {
-            let (mut a, mut b) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3]);
-            for i in 0..nearest.len() {
-                let normal = normals[nearest[i].index];
+        point.truncate(count);
+        let nearest = self
+            .of
+            .neighbors
+            .nearest_of_columns(reflected.each_ref().map(|column| &column[..count]));
+        let first = self.of.neighbors.first();
+        let mut found = Partners {
+            point,
+            index: nearest.position.iter().map(|&at| first[at as usize]).collect(),
+            distance: nearest.distance_squared,
+            angle_rad: vec![0.0; count],
+        };
+        for distance in &mut found.distance {
+            *distance = distance.sqrt();
+        }
+        for from in (0..count).step_by(LANES) {
+            let lanes = from..(from + LANES).min(count);
+            let a = gather(&normals, lanes.clone());
+            let mut b = [[0.0; LANES]; 3];
+            for (i, &at) in nearest.position[lanes.clone()].iter().enumerate() {
+                let normal = &self.of.normals_at[at as usize];
                 for e in 0..3 {
-                    a[e][i] = reflected[i][e];
                     b[e][i] = normal[e];
                 }
             }
             let angles = angles_between_directions_rad(&a, &b);
-            for i in 0..nearest.len() {
-                found.index.push(nearest[i].index as u32);
-                found.distance.push(nearest[i].distance_squared.sqrt());
-                found.angle_rad.push(angles[i]);
-            }
+            found.angle_rad[lanes.clone()].copy_from_slice(&angles[..lanes.len()]);
         }
         found
     }

@@ -1,33 +1,47 @@
-//! Boxes around nearby points, turned to lie along them, eight at a time in single precision.
+//! Boxes around nearby points, turned to lie along them, sixteen at a time in single precision.
 //!
 //! A piece of a surface is thin across and wide along. A box that lies along it is thin too, which
 //! tells apart pieces that are all nearly as far from a point well off the surface: boxes along the
 //! coordinate axes leave hundreds of them to look into.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
+use pulp::Simd;
 
 use crate::geometry::eigen::symmetric_eigen;
 
 /// Boxes that are tested together.
-pub(super) const WIDTH: usize = 8;
+pub(super) const WIDTH: usize = 16;
 
 /// What rounding may add to a distance from a box, a unit of the query's distance from the origin
 /// plus one (the frame's half extent): 18 roundings of 2^-24, and as much again for safety.
 pub(super) const SLACK: f32 = 2.2e-6;
 
+/// `a * b + c`, rounded once where the machine can. Only where a bound on rounding is kept
+/// anyway: the last digit depends on the machine.
+#[inline(always)]
+pub(super) fn times_plus<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
+    // All machines with vectors that wide can.
+    if S::F32_LANES >= 8 || cfg!(target_arch = "aarch64") {
+        a.mul_add(b, c)
+    } else {
+        a * b + c
+    }
+}
+
 /// Up to [`WIDTH`] boxes, each number of all of them side by side.
 #[derive(Debug, Clone)]
 pub(super) struct Boxes {
-    center: [[f32; WIDTH]; 3],
     axes: [[[f32; WIDTH]; 3]; 3],
+    /// The boxes' centers along their axes, negative.
+    offset: [[f32; WIDTH]; 3],
     half: [[f32; WIDTH]; 3],
 }
 
 impl Boxes {
     /// No box: infinitely far from everything.
     pub(super) const NONE: Self = Self {
-        center: [[0.0; WIDTH]; 3],
         axes: [[[0.0; WIDTH]; 3]; 3],
+        offset: [[0.0; WIDTH]; 3],
         half: [[f32::NEG_INFINITY; WIDTH]; 3],
     };
 
@@ -48,20 +62,15 @@ impl Boxes {
         let (_, axes) = symmetric_eigen(m);
         // What is stored is what the extents are measured along.
         let axes = axes.map(DVec3::as_vec3);
-        let along = |p: DVec3| DVec3::from_array(axes.map(|a| a.as_dvec3().dot(p - mean)));
+        let along = |p: DVec3| DVec3::from_array(axes.map(|a| a.as_dvec3().dot(p)));
         let (low, high) = points.fold(
             (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY)),
             |(low, high), p| (low.min(along(p)), high.max(along(p))),
         );
         let middle = 0.5 * (low + high);
-        let center: Vec3 = (mean
-            + axes[0].as_dvec3() * middle.x
-            + axes[1].as_dvec3() * middle.y
-            + axes[2].as_dvec3() * middle.z)
-            .as_vec3();
         let half = 0.5 * (high - low);
         for e in 0..3 {
-            self.center[e][lane] = center[e];
+            self.offset[e][lane] = -middle[e] as f32;
             self.half[e][lane] = half[e] as f32;
             for f in 0..3 {
                 self.axes[e][f][lane] = axes[e][f];
@@ -71,19 +80,19 @@ impl Boxes {
 
     /// The squared distances from `q` to the boxes.
     #[inline(always)]
-    pub(super) fn distances_squared(&self, q: [f32; 3]) -> [f32; WIDTH] {
+    pub(super) fn distances_squared<S: Simd>(&self, q: [f32; 3]) -> [f32; WIDTH] {
         // Plain loops over lanes, which the compiler turns into vector instructions.
         let mut sum = [0.0; WIDTH];
         for e in 0..3 {
-            let ([ax, ay, az], half) = (&self.axes[e], &self.half[e]);
+            let ([ax, ay, az], offset, half) = (&self.axes[e], &self.offset[e], &self.half[e]);
             for i in 0..WIDTH {
-                let along = ax[i] * (q[0] - self.center[0][i])
-                    + ay[i] * (q[1] - self.center[1][i])
-                    + az[i] * (q[2] - self.center[2][i]);
+                let along = times_plus::<S>(ax[i], q[0], offset[i]);
+                let along = times_plus::<S>(ay[i], q[1], along);
+                let along = times_plus::<S>(az[i], q[2], along);
                 let outside = along.abs() - half[i];
                 // Not `max`, whose rule for NaN costs instructions.
                 let outside = if outside > 0.0 { outside } else { 0.0 };
-                sum[i] += outside * outside;
+                sum[i] = times_plus::<S>(outside, outside, sum[i]);
             }
         }
         sum
@@ -91,24 +100,23 @@ impl Boxes {
 
     /// Whether any query lies within its reach of the box in `lane`; NaN counts as within.
     #[inline(always)]
-    pub(super) fn any_within<const N: usize>(
+    pub(super) fn any_within<S: Simd, const N: usize>(
         &self,
         lane: usize,
         queries: &[[f32; N]; 3],
         reach_squared: &[f32; N],
     ) -> bool {
-        let center: [f32; 3] = std::array::from_fn(|e| self.center[e][lane]);
         let mut sum = [0.0; N];
         for e in 0..3 {
             let [ax, ay, az]: [f32; 3] = std::array::from_fn(|f| self.axes[e][f][lane]);
-            let half = self.half[e][lane];
+            let (offset, half) = (self.offset[e][lane], self.half[e][lane]);
             for i in 0..N {
-                let along = ax * (queries[0][i] - center[0])
-                    + ay * (queries[1][i] - center[1])
-                    + az * (queries[2][i] - center[2]);
+                let along = times_plus::<S>(ax, queries[0][i], offset);
+                let along = times_plus::<S>(ay, queries[1][i], along);
+                let along = times_plus::<S>(az, queries[2][i], along);
                 let outside = along.abs() - half;
                 let outside = if outside > 0.0 { outside } else { 0.0 };
-                sum[i] += outside * outside;
+                sum[i] = times_plus::<S>(outside, outside, sum[i]);
             }
         }
         let mut beyond = true;

@@ -25,8 +25,9 @@ mod tree;
 use std::num::NonZeroUsize;
 
 use glam::DVec3;
+use pulp::{Scalar, Simd};
 
-use block::{BLOCK, Block};
+use block::{BLOCK, Block, Double};
 use places::distinct_places;
 use tree::{Item, LEAF, Tree};
 
@@ -119,25 +120,26 @@ impl Neighbors {
     /// The place nearest to `query`, which must be finite; of several as near the one of the lowest
     /// index.
     pub fn nearest(&self, query: DVec3) -> Neighbor {
-        self.nearest_from(self.tree.descend(query), query)
+        let (distance_squared, position) = self.nearest_from::<Scalar>(self.tree.descend(query), query);
+        self.neighbor(position, distance_squared)
     }
 
-    /// [`Neighbors::nearest`], with a leaf that holds places nearby.
+    /// The squared distance and the position of the nearest place, from a leaf that holds places nearby.
     #[inline(always)]
-    fn nearest_from(&self, start: usize, query: DVec3) -> Neighbor {
+    fn nearest_from<S: Simd>(&self, start: usize, query: DVec3) -> (f64, usize) {
         // The first place there stands in where every distance overflows.
         let mut best = (f64::INFINITY, start * LEAF);
         self.look_into(start, query, &mut best);
         let in_frame = self.tree.in_frame(query).as_vec3();
         let mut reach = self.tree.reach_squared(in_frame, best.0);
         let mut walk = self.tree.walk(in_frame);
-        while let Some(leaf) = walk.next(&self.tree, reach) {
+        while let Some(leaf) = walk.next::<S>(&self.tree, reach) {
             if leaf != start {
                 self.look_into(leaf, query, &mut best);
                 reach = self.tree.reach_squared(in_frame, best.0);
             }
         }
-        self.neighbor(best.1, best.0)
+        best
     }
 
     #[inline(always)]
@@ -172,9 +174,24 @@ impl Neighbors {
     /// them, as points in [`Neighbors::order`] do, are answered several times sooner than one by one:
     /// they walk through the tree together.
     pub fn nearest_of_each(&self, queries: &[DVec3]) -> Vec<Neighbor> {
-        // The widest vector instructions that this machine has. They round like all others, and
-        // nothing is contracted, so that the answers are the same everywhere.
-        pulp::Arch::new().dispatch(NearestOfEach { index: self, queries })
+        let column = |e: usize| queries.iter().map(|q| q[e]).collect::<Vec<f64>>();
+        let columns = [column(0), column(1), column(2)];
+        let found = self.nearest_of_columns(columns.each_ref().map(Vec::as_slice));
+        let each = found.position.iter().zip(&found.distance_squared);
+        each.map(|(&position, &d)| self.neighbor(position as usize, d))
+            .collect()
+    }
+
+    /// [`Neighbors::nearest_of_each`] of queries that are given coordinate by coordinate, all as many.
+    pub(crate) fn nearest_of_columns(&self, queries: [&[f64]; 3]) -> NearestPlaces {
+        // The widest vector instructions that this machine has. What depends on how they round is only
+        // which leaves are looked into, never an answer.
+        pulp::Arch::new().dispatch(Nearest { index: self, queries })
+    }
+
+    /// The lowest index of the points at each position of the tree's order.
+    pub(crate) fn first(&self) -> &[u32] {
+        &self.first
     }
 
     /// The places nearest to `query` that together hold at least `count` points (all of them where
@@ -212,7 +229,7 @@ impl Neighbors {
         let in_frame = self.tree.in_frame(query).as_vec3();
         let reach = self.tree.reach_squared(in_frame, limit);
         let mut walk = self.tree.walk(in_frame);
-        while let Some(leaf) = walk.next(&self.tree, reach) {
+        while let Some(leaf) = walk.next::<Scalar>(&self.tree, reach) {
             self.collect(leaf, query, limit, found);
         }
         let by_distance = |a: &(f64, u32), b: &(f64, u32)| {
@@ -260,56 +277,119 @@ impl Neighbors {
 /// How many queries of a block the next one starts from.
 const SEEDS: usize = 3;
 
-/// [`Neighbors::nearest_of_each`] as what can be built once for each kind of vector instructions:
-/// all that it calls in its loops is inlined into it.
-struct NearestOfEach<'a> {
-    index: &'a Neighbors,
-    queries: &'a [DVec3],
+/// What is nearest to each of many queries.
+#[derive(Debug, Default)]
+pub(crate) struct NearestPlaces {
+    /// The place's position in the tree's order.
+    pub(crate) position: Vec<u32>,
+    /// Its squared distance, in the square of the points' unit.
+    pub(crate) distance_squared: Vec<f64>,
 }
 
-impl pulp::NullaryFnOnce for NearestOfEach<'_> {
-    type Output = Vec<Neighbor>;
+/// [`Neighbors::nearest_of_columns`] as what can be built once for each kind of vector instructions:
+/// all that it calls in its loops is inlined into it.
+struct NearestOfEach<'a, S> {
+    simd: S,
+    index: &'a Neighbors,
+    queries: [&'a [f64]; 3],
+}
+
+/// The same, before it is known which instructions there are.
+struct Nearest<'a> {
+    index: &'a Neighbors,
+    queries: [&'a [f64]; 3],
+}
+
+impl pulp::WithSimd for Nearest<'_> {
+    type Output = NearestPlaces;
 
     #[inline(always)]
-    fn call(self) -> Vec<Neighbor> {
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Self { index, queries } = self;
+        simd.vectorize(NearestOfEach { simd, index, queries })
+    }
+}
+
+impl<S: Simd> pulp::NullaryFnOnce for NearestOfEach<'_, S> {
+    type Output = NearestPlaces;
+
+    #[inline(always)]
+    fn call(self) -> NearestPlaces {
         let (index, tree) = (self.index, &self.index.tree);
-        let mut found = Vec::with_capacity(self.queries.len());
+        let count = self.queries[0].len();
+        let mut found = NearestPlaces {
+            position: vec![0; count],
+            distance_squared: vec![0.0; count],
+        };
         let mut start = [usize::MAX; SEEDS];
-        for queries in self.queries.chunks(BLOCK) {
+        let mut block = Block::empty();
+        for from in (0..count).step_by(BLOCK) {
+            let size = BLOCK.min(count - from);
+            let queries = self.block(from, size);
+            let query = |i: usize| DVec3::new(queries[0][i], queries[1][i], queries[2][i]);
+            let positions = &mut found.position[from..from + size];
+            let distances = &mut found.distance_squared[from..from + size];
             if start[0] == usize::MAX {
-                start = [tree.descend(queries[0]); SEEDS];
+                start = [tree.descend(query(0)); SEEDS];
             }
-            let Some(mut block) = Block::new(tree, queries, start[0]) else {
-                found.extend(queries.iter().map(|&q| index.nearest(q)));
+            if !block.begin(tree, &queries, start[0]) {
+                for i in 0..size {
+                    let (distance, position) = index.nearest_from::<S>(tree.descend(query(i)), query(i));
+                    (positions[i], distances[i]) = (position as u32, distance);
+                }
                 continue;
-            };
+            }
             // Where the queries before these found theirs, so that hardly anything else is in reach.
             for (i, &leaf) in start.iter().enumerate() {
                 if !start[..i].contains(&leaf) {
-                    block.look_into(tree, leaf);
+                    block.look_into::<S>(tree, leaf);
                 }
             }
             block.update_reach();
             let mut walk = tree.walk(block.center());
-            while let Some(leaf) = walk.next(tree, block.center_reach_squared()) {
-                if !start.contains(&leaf) && block.may_find_in(tree, leaf) && block.look_into(tree, leaf) {
+            while let Some(leaf) = walk.next::<S>(tree, block.center_reach_squared()) {
+                if !start.contains(&leaf)
+                    && block.may_find_in::<S>(tree, leaf)
+                    && block.look_into::<S>(tree, leaf)
+                {
                     block.update_reach();
                 }
             }
-            for (i, &query) in queries.iter().enumerate() {
+            for i in 0..size {
                 let (leaf, surely) = block.found(i);
-                found.push(if surely {
-                    let mut best = (f64::INFINITY, leaf * LEAF);
-                    index.look_into(leaf, query, &mut best);
-                    index.neighbor(best.1, best.0)
+                let place = if surely {
+                    block.place(self.simd, i, tree)
                 } else {
-                    index.nearest_from(leaf, query)
-                });
+                    None
+                };
+                let (distance, position) = match place {
+                    Some(place) => (tree.distance_squared(leaf, place, query(i)), leaf * LEAF + place),
+                    None => index.nearest_from::<S>(leaf, query(i)),
+                };
+                (positions[i], distances[i]) = (position as u32, distance);
             }
             for s in 0..SEEDS {
                 start[s] = block.found(s * (BLOCK - 1) / (SEEDS - 1)).0;
             }
         }
         found
+    }
+}
+
+impl<S> NearestOfEach<'_, S> {
+    /// The queries of a block; a short one is filled up with its last.
+    #[inline(always)]
+    fn block(&self, from: usize, size: usize) -> [Double; 3] {
+        let mut block = [[0.0; BLOCK]; 3];
+        for e in 0..3 {
+            let column = &self.queries[e][from..from + size];
+            if let Ok(whole) = <&Double>::try_from(column) {
+                block[e] = *whole;
+            } else {
+                block[e] = [column[size - 1]; BLOCK];
+                block[e][..size].copy_from_slice(column);
+            }
+        }
+        block
     }
 }

@@ -1,7 +1,8 @@
 //! A balanced tree of boxes over leaves of points, laid out by position alone: leaf `i` holds the
-//! points from `i * LEAF`, and a node of a level the eight nodes below it.
+//! points from `i * LEAF`, and a node of a level the sixteen nodes below it.
 
 use glam::{DVec3, Vec3};
+use pulp::{Scalar, Simd};
 
 use super::boxes::{Boxes, SLACK, WIDTH};
 use crate::geometry::parallel::{join, map_pieces};
@@ -10,7 +11,7 @@ use crate::geometry::parallel::{join, map_pieces};
 pub(super) const LEAF: usize = 16;
 
 /// Points below which sorting is not worth another core.
-const ALONE: usize = 4096;
+const ALONE: usize = 1024;
 
 /// A point and its number before sorting.
 #[derive(Debug, Clone, Copy)]
@@ -62,7 +63,7 @@ impl Near {
 pub(super) struct Tree {
     leaves: Vec<Leaf>,
     near: Vec<Near>,
-    /// The leaves' boxes, then those of eight leaves each, up to a single group.
+    /// The leaves' boxes, then those of sixteen leaves each, up to a single group.
     levels: Vec<Vec<Boxes>>,
     len: usize,
     /// The boxes' frame: `(p - origin) * scale` lies within -1..1 for each point.
@@ -74,7 +75,8 @@ impl Tree {
     /// Sorts `items`, of which there must be some, into the tree's order, and builds the tree on them.
     pub(super) fn new(items: &mut [Item]) -> Self {
         let len = items.len();
-        sort(items);
+        let from = items.first().map_or(DVec3::ZERO, |_| extent(items).0);
+        sort(items, from);
         // Within a leaf by number, so that the first of equals is the lowest.
         for leaf in items.chunks_mut(LEAF) {
             leaf.sort_unstable_by_key(|item| item.id);
@@ -163,7 +165,7 @@ impl Tree {
         let in_frame = self.in_frame(q).as_vec3().to_array();
         let mut group = 0;
         for (level, boxes) in self.levels.iter().enumerate().rev() {
-            let distances = boxes[group].distances_squared(in_frame);
+            let distances = boxes[group].distances_squared::<Scalar>(in_frame);
             let nearest = (0..WIDTH)
                 .min_by(|&a, &b| distances[a].total_cmp(&distances[b]))
                 .unwrap_or(0);
@@ -192,6 +194,20 @@ impl Tree {
         (p - self.origin) * self.scale
     }
 
+    /// One coordinate of it.
+    #[inline(always)]
+    pub(super) fn in_frame_along(&self, e: usize, coordinate: f64) -> f64 {
+        (coordinate - self.origin[e]) * self.scale
+    }
+
+    /// The squared distance from `q` to a point of a leaf, as [`Tree::leaf_distances_squared`] has it.
+    #[inline(always)]
+    pub(super) fn distance_squared(&self, leaf: usize, place: usize, q: DVec3) -> f64 {
+        let [x, y, z] = &self.leaves[leaf];
+        let d = [q.x - x[place], q.y - y[place], q.z - z[place]];
+        d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
+    }
+
     #[inline(always)]
     pub(super) fn leaf_center(&self, leaf: usize) -> [f64; 3] {
         self.near[leaf].center
@@ -204,13 +220,13 @@ impl Tree {
 
     /// Whether any query may have a point of `leaf` within its reach.
     #[inline(always)]
-    pub(super) fn any_within<const N: usize>(
+    pub(super) fn any_within<S: Simd, const N: usize>(
         &self,
         leaf: usize,
         queries: &[[f32; N]; 3],
         reach_squared: &[f32; N],
     ) -> bool {
-        self.levels[0][leaf / WIDTH].any_within(leaf % WIDTH, queries, reach_squared)
+        self.levels[0][leaf / WIDTH].any_within::<S, N>(leaf % WIDTH, queries, reach_squared)
     }
 
     /// The positions of a leaf's points in the tree's order.
@@ -240,7 +256,7 @@ pub(super) struct Walk {
 impl Walk {
     /// The next leaf within the root of `reach_squared`, which must not grow from call to call.
     #[inline(always)]
-    pub(super) fn next(&mut self, tree: &Tree, reach_squared: f32) -> Option<usize> {
+    pub(super) fn next<S: Simd>(&mut self, tree: &Tree, reach_squared: f32) -> Option<usize> {
         loop {
             while self.near != 0 {
                 let i = self.near.trailing_zeros() as usize;
@@ -260,7 +276,7 @@ impl Walk {
                 continue;
             }
             let (level, group) = (level as usize, group as usize);
-            let distances = tree.levels[level][group].distances_squared(self.from);
+            let distances = tree.levels[level][group].distances_squared::<S>(self.from);
             // Bit after bit and then all at once, as vectors can.
             let mut bits = [0u32; WIDTH];
             for i in 0..WIDTH {
@@ -290,9 +306,11 @@ fn extent(items: &[Item]) -> (DVec3, DVec3) {
     })
 }
 
-/// Halves along the longest side, again and again, so that each leaf and each eight of them lie
+/// Halves along the longest side, again and again, so that each leaf and each sixteen of them lie
 /// close together. The first half is a power of two of leaves, and so every node is full but the last.
-fn sort(items: &mut [Item]) {
+/// Of both halves the one nearer to `from` comes first, so that what follows one another lies close
+/// together as well.
+fn sort(items: &mut [Item], from: DVec3) {
     let leaves = items.len().div_ceil(LEAF);
     if leaves < 2 {
         return;
@@ -300,12 +318,21 @@ fn sort(items: &mut [Item]) {
     let (low, high) = extent(items);
     let axis = (high - low).max_position();
     let half = leaves.next_power_of_two() / 2 * LEAF;
-    items.select_nth_unstable_by(half, |a, b| a.at[axis].total_cmp(&b.at[axis]));
+    let middle = low + 0.5 * (high - low);
+    if from[axis] > middle[axis] {
+        items.select_nth_unstable_by(half, |a, b| b.at[axis].total_cmp(&a.at[axis]));
+    } else {
+        items.select_nth_unstable_by(half, |a, b| a.at[axis].total_cmp(&b.at[axis]));
+    }
     let (left, right) = items.split_at_mut(half);
     if leaves * LEAF < ALONE {
-        sort(left);
-        sort(right);
+        sort(left, from);
+        let last = left[half - 1].at;
+        sort(right, last);
     } else {
-        join(|| sort(left), || sort(right));
+        // Across, and at the other end sideways, is about where the first half ends.
+        let mut last = low + high - from;
+        last[axis] = middle[axis];
+        join(|| sort(left, from), || sort(right, last));
     }
 }
