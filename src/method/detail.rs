@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::Surface;
-use super::partners::Ordered;
+use super::partners::partners_once;
 use super::terms::PIECE;
 use crate::geometry::{Cancelled, Plane, Unit, Watch, map_pieces};
 
@@ -77,11 +77,12 @@ pub fn plane_detail(
             partner: None,
         })
         .collect();
-    if let Some(ordered) = Ordered::new(surface) {
+    // Nothing is indexed, and nothing found, where there are more points than can be.
+    if surface.neighbors().is_some() {
         let pieces = map_pieces(surface.len(), PIECE, watch, |range| {
-            ordered.partners(range, &plane, viewpoint)
+            partners_once(surface, range, &plane, viewpoint)
         })?;
-        for found in pieces {
+        for found in pieces.into_iter().flatten() {
             for (k, &i) in found.point.iter().enumerate() {
                 points[i as usize].partner = Some(Partner {
                     index: found.index[k] as usize,

@@ -30,7 +30,7 @@ pub(super) struct Partners {
 }
 
 /// A surface's points and normals in an order in which each point lies close to the one before it,
-/// coordinate by coordinate.
+/// coordinate by coordinate: for many planes.
 pub(super) struct Ordered<'a> {
     neighbors: &'a Neighbors,
     points: [Vec<f64>; 3],
@@ -43,36 +43,86 @@ impl<'a> Ordered<'a> {
     /// `None` for more points than can be indexed.
     pub(super) fn new(surface: &'a Surface) -> Option<Self> {
         let neighbors = surface.neighbors()?;
-        let column = |of: &[DVec3], e: usize| neighbors.order().iter().map(|&i| of[i as usize][e]).collect();
+        let normals = surface.normals();
+        let first = neighbors.first().iter();
         Some(Self {
             neighbors,
-            points: std::array::from_fn(|e| column(surface.points(), e)),
-            normals: std::array::from_fn(|e| column(surface.normals(), e)),
-            normals_at: neighbors
-                .first()
-                .iter()
-                .map(|&i| surface.normals()[i as usize])
-                .collect(),
+            points: columns(surface.points(), neighbors.order()),
+            normals: columns(normals, neighbors.order()),
+            normals_at: first.map(|&i| normals[i as usize]).collect(),
         })
     }
 
     /// The partners of the points of a range in this order.
     pub(super) fn partners(&self, range: Range<usize>, plane: &Plane, viewpoint: DVec3) -> Partners {
-        // The widest vector instructions that this machine has. They round like all others.
-        pulp::Arch::new().dispatch(FindPartners {
-            of: self,
-            range,
+        FindPartners {
+            neighbors: self.neighbors,
+            order: &self.neighbors.order()[range.clone()],
+            points: self.points.each_ref().map(|of| &of[range.clone()]),
+            normals: self.normals.each_ref().map(|of| &of[range.clone()]),
+            normals_at: NormalsAt::Places(&self.normals_at),
             plane,
             viewpoint,
-        })
+        }
+        .find()
     }
 }
 
-struct FindPartners<'a> {
-    of: &'a Ordered<'a>,
+/// The partners of the points of a range in the order of the surface's neighbors, for a single plane:
+/// nothing is kept of the points beside the range. `None` for more points than can be indexed.
+pub(super) fn partners_once(
+    surface: &Surface,
     range: Range<usize>,
+    plane: &Plane,
+    viewpoint: DVec3,
+) -> Option<Partners> {
+    let neighbors = surface.neighbors()?;
+    let order = &neighbors.order()[range];
+    let (points, normals) = (
+        columns(surface.points(), order),
+        columns(surface.normals(), order),
+    );
+    let found = FindPartners {
+        neighbors,
+        order,
+        points: points.each_ref().map(Vec::as_slice),
+        normals: normals.each_ref().map(Vec::as_slice),
+        normals_at: NormalsAt::Points(surface.normals()),
+        plane,
+        viewpoint,
+    };
+    Some(found.find())
+}
+
+fn columns(of: &[DVec3], order: &[u32]) -> [Vec<f64>; 3] {
+    std::array::from_fn(|e| order.iter().map(|&i| of[i as usize][e]).collect())
+}
+
+/// Where the normal of a place of the tree is found.
+#[derive(Clone, Copy)]
+enum NormalsAt<'a> {
+    /// In the tree's order.
+    Places(&'a [DVec3]),
+    /// Under the lowest index of its points.
+    Points(&'a [DVec3]),
+}
+
+struct FindPartners<'a> {
+    neighbors: &'a Neighbors,
+    /// The points' indices, and then the points and normals themselves.
+    order: &'a [u32],
+    points: [&'a [f64]; 3],
+    normals: [&'a [f64]; 3],
+    normals_at: NormalsAt<'a>,
     plane: &'a Plane,
     viewpoint: DVec3,
+}
+
+impl FindPartners<'_> {
+    /// By the widest vector instructions that this machine has. They round like all others.
+    fn find(self) -> Partners {
+        pulp::Arch::new().dispatch(self)
+    }
 }
 
 impl pulp::NullaryFnOnce for FindPartners<'_> {
@@ -81,17 +131,17 @@ impl pulp::NullaryFnOnce for FindPartners<'_> {
     #[inline(always)]
     fn call(self) -> Partners {
         // Each block of lanes is written whole and then partly written over: no branch a point.
-        let room = self.range.len() + LANES;
+        let room = self.order.len() + LANES;
         let mut point = vec![0; room];
         let mut reflected = [vec![0.0; room], vec![0.0; room], vec![0.0; room]];
         let mut normals = [vec![0.0; room], vec![0.0; room], vec![0.0; room]];
         let mut count = 0;
-        let order = self.of.neighbors.order();
-        for from in self.range.clone().step_by(LANES) {
-            let lanes = from..(from + LANES).min(self.range.end);
+        let order = self.order;
+        for from in (0..order.len()).step_by(LANES) {
+            let lanes = from..(from + LANES).min(order.len());
             let (p, n) = (
-                gather(&self.of.points, lanes.clone()),
-                gather(&self.of.normals, lanes.clone()),
+                gather(self.points, lanes.clone()),
+                gather(self.normals, lanes.clone()),
             );
             let (p, n, facing) = self.reflect(p, n);
             let mut seen = 0;
@@ -122,10 +172,9 @@ impl pulp::NullaryFnOnce for FindPartners<'_> {
         }
         point.truncate(count);
         let nearest = self
-            .of
             .neighbors
             .nearest_of_columns(reflected.each_ref().map(|column| &column[..count]));
-        let first = self.of.neighbors.first();
+        let first = self.neighbors.first();
         let mut found = Partners {
             point,
             index: nearest.position.iter().map(|&at| first[at as usize]).collect(),
@@ -137,10 +186,13 @@ impl pulp::NullaryFnOnce for FindPartners<'_> {
         }
         for from in (0..count).step_by(LANES) {
             let lanes = from..(from + LANES).min(count);
-            let a = gather(&normals, lanes.clone());
+            let a = gather([&normals[0], &normals[1], &normals[2]], lanes.clone());
             let mut b = [[0.0; LANES]; 3];
             for (i, &at) in nearest.position[lanes.clone()].iter().enumerate() {
-                let normal = &self.of.normals_at[at as usize];
+                let normal = match self.normals_at {
+                    NormalsAt::Places(normals) => &normals[at as usize],
+                    NormalsAt::Points(normals) => &normals[first[at as usize] as usize],
+                };
                 for e in 0..3 {
                     b[e][i] = normal[e];
                 }
@@ -155,7 +207,7 @@ impl pulp::NullaryFnOnce for FindPartners<'_> {
 type Lanes = [[f64; LANES]; 3];
 
 #[inline(always)]
-fn gather(columns: &[Vec<f64>; 3], lanes: Range<usize>) -> Lanes {
+fn gather(columns: [&[f64]; 3], lanes: Range<usize>) -> Lanes {
     let mut all = [[0.0; LANES]; 3];
     for e in 0..3 {
         let column = &columns[e][lanes.clone()];
