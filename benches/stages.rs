@@ -4,8 +4,13 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::num::NonZeroUsize;
 
-use axiscope::geometry::{Neighbors, Unit, estimate_normals};
-use axiscope::method::{CandidateGrid, Surface, fit_sphere, plane_terms};
+use axiscope::geometry::{Cloud, Neighbors, Plane, Unit, estimate_normals};
+use axiscope::io::parse_cloud;
+use axiscope::io::ply::{self, Encoding, WriteOptions};
+use axiscope::method::{
+    Aggregation, CandidateGrid, CenterMethod, Preset, RandomSearch, Ranking, Surface, TAU_CM_PER_RAD,
+    find_center, fit_sphere, plane_detail, plane_terms,
+};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::DVec3;
 
@@ -68,6 +73,36 @@ fn stages(c: &mut Criterion) {
                 )
             });
         });
+        let plane = Plane {
+            point: center,
+            normal: grid.candidate(14).normal,
+        };
+        group.bench_function(BenchmarkId::new("one plane's detail", count), |b| {
+            b.iter(|| plane_detail(black_box(&surface), Unit::Centimeter, plane, DVec3::ZERO, &()));
+        });
+        group.bench_function(BenchmarkId::new("scores for another τ, u = 6", count), |b| {
+            let planes = plane_terms(&surface, Unit::Centimeter, center, DVec3::ZERO, grid, &())
+                .expect("nobody calls it off");
+            b.iter(|| Ranking::new(black_box(&planes), TAU_CM_PER_RAD, Aggregation::Mean, 0.3));
+        });
+        let method = CenterMethod::of_preset(Preset::AsIntended, RandomSearch::default());
+        group.bench_function(BenchmarkId::new("center, equidistant", count), |b| {
+            b.iter(|| find_center(black_box(&points), &method, &()));
+        });
+        let cloud = Cloud::new(points.clone())
+            .with_normals(normals.iter().map(|n| n.as_vec3()).collect())
+            .expect("as many normals as points");
+        for encoding in [Encoding::BinaryLittleEndian, Encoding::Ascii] {
+            let mut bytes = Vec::new();
+            let options = WriteOptions {
+                encoding,
+                ..WriteOptions::default()
+            };
+            ply::write(&mut bytes, &cloud, &options).expect("written to memory");
+            group.bench_function(BenchmarkId::new(format!("read {encoding:?}"), count), |b| {
+                b.iter(|| parse_cloud("cloud.ply", black_box(&bytes)));
+            });
+        }
     }
     group.finish();
 }
