@@ -1,6 +1,12 @@
 //! Surface normals by fitting a plane to each point's neighborhood (Eq. 2).
 
+#![allow(
+    clippy::inline_always,
+    reason = "only what is inlined is built for each kind of vector instructions"
+)]
+
 use std::num::NonZeroUsize;
+use std::ops::Range;
 
 use glam::DVec3;
 
@@ -26,42 +32,66 @@ pub fn estimate_normals(
     let Some(neighbors) = Neighbors::new(points) else {
         return Ok(Vec::new());
     };
-    // Neighbors of close points lie in the same memory.
-    let order = neighbors.order();
-    let pieces = map_pieces(points.len(), PIECE, watch, |range| {
-        order[range]
-            .iter()
-            .map(|&i| fitted_normal(points, &neighbors, points[i as usize], k, viewpoint))
-            .collect::<Vec<_>>()
+    // Neighbors of close places lie in the same memory.
+    let pieces = map_pieces(neighbors.distinct(), PIECE, watch, |range| {
+        // The widest vector instructions that this machine has. They round like all others.
+        pulp::Arch::new().dispatch(FitNormals {
+            points,
+            neighbors: &neighbors,
+            range,
+            k,
+            viewpoint,
+        })
     })?;
     let mut normals = vec![None; points.len()];
-    for (&i, normal) in order.iter().zip(pieces.into_iter().flatten()) {
-        normals[i as usize] = normal;
+    for (place, normal) in pieces.into_iter().flatten().enumerate() {
+        for &i in neighbors.points_at(place) {
+            normals[i as usize] = normal;
+        }
     }
     Ok(normals)
 }
 
-fn fitted_normal(
-    points: &[DVec3],
-    neighbors: &Neighbors,
-    point: DVec3,
+/// The normals of a range of places, in the neighbors' order.
+struct FitNormals<'a> {
+    points: &'a [DVec3],
+    neighbors: &'a Neighbors,
+    range: Range<usize>,
     k: NonZeroUsize,
     viewpoint: DVec3,
-) -> Option<DVec3> {
-    let places = neighbors.nearest_places(point, k);
-    if places.len() < 3 {
+}
+
+impl pulp::NullaryFnOnce for FitNormals<'_> {
+    type Output = Vec<Option<DVec3>>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let mut normals = Vec::with_capacity(self.range.len());
+        let (mut found, mut weighted) = (Vec::new(), Vec::new());
+        for place in self.range.clone() {
+            self.neighbors.around(place, self.k, &mut found);
+            // Points that lie at one place weigh as many times, up to k in all.
+            let mut left = self.k.get();
+            weighted.clear();
+            for &(_, at) in &found {
+                let here = self.neighbors.points_at(at as usize);
+                let taken = here.len().min(left);
+                left -= taken;
+                weighted.push((self.points[here[0] as usize], taken as f64));
+            }
+            let here = self.points[self.neighbors.points_at(place)[0] as usize];
+            normals.push(fitted_normal(&weighted, here, self.viewpoint));
+        }
+        normals
+    }
+}
+
+/// The normal at `point` of the points around it with their weights.
+#[inline(always)]
+fn fitted_normal(weighted: &[(DVec3, f64)], point: DVec3, viewpoint: DVec3) -> Option<DVec3> {
+    if weighted.len() < 3 {
         return None;
     }
-    // Points that lie at one place weigh as many times, up to k in all.
-    let mut left = k.get();
-    let weighted: Vec<(DVec3, f64)> = places
-        .iter()
-        .map(|n| {
-            let taken = n.multiplicity.min(left);
-            left -= taken;
-            (points[n.index], taken as f64)
-        })
-        .collect();
     let spread = Spread::of(weighted.iter().copied())?;
     if spread.is_line() {
         return None;

@@ -17,12 +17,11 @@
     reason = "where rounding left no number, a box must be looked into"
 )]
 
+mod around;
 mod block;
 mod boxes;
 mod places;
 mod tree;
-
-use std::num::NonZeroUsize;
 
 use glam::DVec3;
 use pulp::{Scalar, Simd};
@@ -192,72 +191,6 @@ impl Neighbors {
     /// The lowest index of the points at each position of the tree's order.
     pub(crate) fn first(&self) -> &[u32] {
         &self.first
-    }
-
-    /// The places nearest to `query` that together hold at least `count` points (all of them where
-    /// there are fewer), nearest first, of those as near the one of the lowest index first. The last
-    /// place may hold more points than are still wanted.
-    pub fn nearest_places(&self, query: DVec3, count: NonZeroUsize) -> Vec<Neighbor> {
-        let start = self.tree.descend(query);
-        let mut found = Vec::new();
-        self.gather(query, count, start, &mut found);
-        found
-            .iter()
-            .map(|&(d, position)| self.neighbor(position as usize, d))
-            .collect()
-    }
-
-    /// The distances and positions in the tree's order of the nearest places, into `found`.
-    /// `start` is a leaf nearby.
-    #[inline(always)]
-    fn gather(&self, query: DVec3, count: NonZeroUsize, start: usize, found: &mut Vec<(f64, u32)>) {
-        let mut wanted = count.get();
-        let count = wanted.min(self.tree.len());
-        // Some places nearby, whose count-th bounds the search.
-        found.clear();
-        // One leaf more than they fill, since the last may be short.
-        let window = count.div_ceil(LEAF) + 1;
-        let leaves = self.tree.len().div_ceil(LEAF);
-        let from = start
-            .saturating_sub(window / 2)
-            .min(leaves.saturating_sub(window));
-        for leaf in from..(from + window).min(leaves) {
-            self.collect(leaf, query, f64::INFINITY, found);
-        }
-        let (_, &mut (limit, _), _) = found.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
-        found.clear();
-        let in_frame = self.tree.in_frame(query).as_vec3();
-        let reach = self.tree.reach_squared(in_frame, limit);
-        let mut walk = self.tree.walk(in_frame);
-        while let Some(leaf) = walk.next::<Scalar>(&self.tree, reach) {
-            self.collect(leaf, query, limit, found);
-        }
-        let by_distance = |a: &(f64, u32), b: &(f64, u32)| {
-            (a.0.total_cmp(&b.0)).then_with(|| self.first[a.1 as usize].cmp(&self.first[b.1 as usize]))
-        };
-        if found.len() > count {
-            found.select_nth_unstable_by(count - 1, by_distance);
-            found.truncate(count);
-        }
-        found.sort_unstable_by(by_distance);
-        let enough = found.iter().position(|&(_, position)| {
-            let here = self.multiplicity(position as usize);
-            let last = here >= wanted;
-            wanted = wanted.saturating_sub(here);
-            last
-        });
-        found.truncate(enough.map_or(found.len(), |last| last + 1));
-    }
-
-    #[inline(always)]
-    fn collect(&self, leaf: usize, query: DVec3, limit: f64, found: &mut Vec<(f64, u32)>) {
-        let distances = self.tree.leaf_distances_squared(leaf, query);
-        for position in self.tree.positions(leaf) {
-            let d = distances[position % LEAF];
-            if d <= limit {
-                found.push((d, position as u32));
-            }
-        }
     }
 
     fn multiplicity(&self, position: usize) -> usize {

@@ -194,6 +194,13 @@ impl Tree {
         (p - self.origin) * self.scale
     }
 
+    /// A point of a leaf.
+    #[inline(always)]
+    pub(super) fn place(&self, leaf: usize, place: usize) -> DVec3 {
+        let [x, y, z] = &self.leaves[leaf];
+        DVec3::new(x[place], y[place], z[place])
+    }
+
     /// One coordinate of it.
     #[inline(always)]
     pub(super) fn in_frame_along(&self, e: usize, coordinate: f64) -> f64 {
