@@ -40,6 +40,7 @@ pub fn command_line(state: &State, out: &str, size_px: [u32; 2]) -> Vec<String> 
     match state.truth {
         TruthChoice::Truth => add("--reference", "truth".into()),
         TruthChoice::Manual => add("--reference", "manual".into()),
+        TruthChoice::PeduncleDirection => add("--reference", "peduncle-direction".into()),
         TruthChoice::Auto | TruthChoice::Peduncle => {}
     }
     if let Some(shown) = state.shown() {

@@ -54,6 +54,8 @@ pub struct Question {
     pub plane: Option<usize>,
     /// The axis that it is compared with.
     pub reference: Option<AxisEstimate>,
+    /// All axes that there are to compare with.
+    pub references: Vec<AxisEstimate>,
     /// How it is drawn.
     pub style: Style,
     /// Physical pixels a point of the style's sizes.
@@ -151,6 +153,7 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         analysis,
         plane,
         reference,
+        references,
         style,
         pixels_per_point,
         brush_cm,
@@ -165,6 +168,7 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         plane: None,
         axis: None,
         reference: reference.as_ref(),
+        references: &references,
     };
     let Some(analysis) = analysis else {
         return Ok(bare_look(

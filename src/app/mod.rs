@@ -381,6 +381,7 @@ impl App {
                 analysis: self.state.analysis().cloned(),
                 plane: wanted.plane,
                 reference: self.state.reference().cloned(),
+                references: self.state.references.clone(),
                 style: wanted.style.clone(),
                 pixels_per_point: wanted.pixels_per_point,
                 brush_cm: wanted.brush_cm.clone(),

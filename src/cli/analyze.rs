@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Context;
-use axiscope::evaluate::{AnalysisReport, Examined, Timings, TruthChoice, examine, reference_of};
+use axiscope::evaluate::{AnalysisReport, Examined, Timings, TruthChoice, examine, peduncle_disagreement_deg, reference_of};
 use axiscope::geometry::Unit;
 use axiscope::io::Fruit;
-use axiscope::method::{Aggregation, Analysis, CenterMethod, Stage};
+use axiscope::method::{Aggregation, Analysis, AxisEstimate, CenterMethod, Stage};
 use axiscope::reference::{PeduncleSource, axis_error_rad};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
@@ -130,6 +130,10 @@ fn write_text(
         Some(axis) => row(out, "Symmetry axis", &direction(axis.direction))?,
         None => row(out, "Symmetry axis", "none")?,
     }
+    let error_to = |reference: &AxisEstimate| match &analysis.axis {
+        Some(axis) => format!("{:.2}°", axis_error_rad(axis, reference).to_degrees()),
+        None => "none without an axis".into(),
+    };
     match (reference, &fruit.peduncle) {
         (Some(reference), Some(peduncle)) => {
             let how = match peduncle.source {
@@ -137,6 +141,7 @@ fn write_text(
                 PeduncleSource::Companion => "a file of its own",
                 PeduncleSource::Removal => "the cloud without it",
                 PeduncleSource::Hue(_) => "color",
+                PeduncleSource::Picked => "hand",
             };
             let count = peduncle.points;
             let text = format!(
@@ -144,14 +149,21 @@ fn write_text(
                 direction(reference.direction)
             );
             row(out, "Reference axis", &text)?;
-            let error = analysis
-                .axis
-                .as_ref()
-                .map(|axis| axis_error_rad(axis, reference).to_degrees());
-            let text = error.map_or("none without an axis".into(), |e| format!("{e:.2}°"));
-            row(out, "Error", &text)?;
+            row(out, "Error", &error_to(reference))?;
         }
         _ => row(out, "Reference axis", "none: no peduncle is known")?,
+    }
+    if let Some(second) = reference_of(references, TruthChoice::PeduncleDirection) {
+        let text = format!(
+            "{} (the peduncle's own direction)",
+            direction(second.direction)
+        );
+        row(out, "Second reference", &text)?;
+        row(out, "Error", &error_to(second))?;
+        if let Some(apart) = peduncle_disagreement_deg(references) {
+            let text = format!("the two references are {apart:.2}° apart");
+            row(out, "", &text)?;
+        }
     }
     let Timings {
         read,
@@ -171,7 +183,7 @@ fn write_text(
 }
 
 fn row(out: &mut impl Write, name: &str, value: &str) -> std::io::Result<()> {
-    writeln!(out, "{name:<16}{value}")
+    writeln!(out, "{name:<18}{value}")
 }
 
 /// The parameters that decide how the paper is read, in words.

@@ -439,6 +439,7 @@ pub fn overlay_title(overlay: Overlay) -> (&'static str, Option<Key>) {
         Overlay::Viewpoint => ("Viewpoint and its ray", Some(Key::V)),
         Overlay::Axis => ("Computed axis", Some(Key::A)),
         Overlay::Reference => ("Reference axis", Some(Key::R)),
+        Overlay::References => ("All reference axes", None),
         Overlay::Ghost => ("Mirrored cloud", Some(Key::G)),
         Overlay::Partners => ("Lines to partners", Some(Key::L)),
         Overlay::Normals => ("Normals of points", Some(Key::M)),

@@ -11,6 +11,7 @@ mod palette;
 mod pick;
 mod preset;
 mod scene;
+mod select;
 mod shown;
 
 pub use annotation::{Anchor, Annotation, Theme};
@@ -21,7 +22,8 @@ pub use overlays::{Overlay, Overlays};
 pub use palette::{NEUTRAL, VALUE_STOPS, value_color};
 pub use pick::pick_point;
 pub use preset::ViewPreset;
-pub use scene::{
+pub use scene::{reference_color, 
     AXIS_COLOR, SceneSettings, build_bare_scene, build_scene, framed_cloud, framed_points, line_scale,
 };
+pub use select::{Brush, Lasso, Region, Screen};
 pub use shown::ShownPoints;

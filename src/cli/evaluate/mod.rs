@@ -54,6 +54,8 @@ enum TruthOption {
     Auto,
     /// The axis from the fruit center through the peduncle (§ 3.2)
     Peduncle,
+    /// The peduncle's own direction, in which its points are spread most
+    PeduncleDirection,
     /// The axis set by hand: the adjudicated one, else the mean of the annotators'
     Manual,
     /// The axis in NAME.truth.json
@@ -93,6 +95,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     let choice = match args.truth {
         TruthOption::Auto => TruthChoice::Auto,
         TruthOption::Peduncle => TruthChoice::Peduncle,
+        TruthOption::PeduncleDirection => TruthChoice::PeduncleDirection,
         TruthOption::Manual => TruthChoice::Manual,
         TruthOption::Truth => TruthChoice::Truth,
     };

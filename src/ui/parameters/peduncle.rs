@@ -31,7 +31,7 @@ impl Way {
             PeduncleChoice::None => Self::None,
             PeduncleChoice::Label => Self::Label,
             // There is no control yet for a folder of clouds without their peduncles.
-            PeduncleChoice::File(_) | PeduncleChoice::Removed(_) => Self::File,
+            PeduncleChoice::File(_) | PeduncleChoice::Removed(_) | PeduncleChoice::Points(_) => Self::File,
             PeduncleChoice::Hue(_) => Self::Hue,
         }
     }
@@ -133,6 +133,7 @@ fn found_in_words(found: Option<&Peduncle>) -> String {
         PeduncleSource::Companion => "in a file of its own",
         PeduncleSource::Removal => "by the cloud without it",
         PeduncleSource::Hue(_) => "by color",
+        PeduncleSource::Picked => "by hand",
     };
     format!("Found {by}: {} points", peduncle.points)
 }
