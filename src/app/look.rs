@@ -5,12 +5,14 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::geometry::{Cancelled, Plane, Watch};
+use crate::geometry::{Cancelled, Cloud, Plane, Watch};
+use crate::io::Fruit;
 use crate::method::{Analysis, AxisEstimate, AxisSource, PlaneDetail, plane_detail, symmetry_axis};
+use crate::reference::PeduncleSource;
 use crate::render::Scene;
 use crate::view::{
     Coloring, ColoringError, Legend, NEUTRAL, Overlay, Overlays, SceneSettings, ShownPoints, Subject, Theme,
-    build_bare_scene, build_scene, color_bare, color_points,
+    build_bare_scene, build_scene, color_bare, color_labels, color_points,
 };
 
 /// How a cloud is drawn, whichever it is.
@@ -62,6 +64,8 @@ pub struct Question {
     pub pixels_per_point: f32,
     /// Contributions d + τξ in centimeters, outside of which points are grayed.
     pub brush_cm: Option<RangeInclusive<f64>>,
+    /// The cloud, whose peduncle may be told otherwise than by its labels; `None` where it was not analyzed.
+    pub fruit: Option<Arc<Fruit>>,
     /// What there may be already of the plane.
     pub detail: Option<Arc<PlaneDetail>>,
 }
@@ -138,7 +142,7 @@ impl Contributions {
 /// Generations are counted over the whole program, so that no view mistakes one for another.
 static GENERATION: AtomicU64 = AtomicU64::new(1);
 
-fn next_generation() -> u64 {
+pub(super) fn next_generation() -> u64 {
     GENERATION.fetch_add(1, Ordering::Relaxed)
 }
 
@@ -157,6 +161,7 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         style,
         pixels_per_point,
         brush_cm,
+        fruit,
         detail,
     } = question;
     let point_size_px = pixels_per_point * point_size(&style, shown.len());
@@ -210,7 +215,11 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         analysis: &analysis,
         detail: detail.as_deref(),
     };
-    let (mut colored, fallback) = match color_points(subject, style.coloring) {
+    let told = fruit.filter(|_| style.coloring == Coloring::Label);
+    let (mut colored, fallback) = match told.and_then(|fruit| told_labels(&fruit, &shown)).map_or_else(
+        || color_points(subject, style.coloring),
+        |labels| Ok(color_labels(&labels)),
+    ) {
         Ok(colored) => (colored, None),
         Err(why) => (color_bare(&shown, style.coloring), Some(why)),
     };
@@ -245,6 +254,29 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         fallback,
         contributions: contributions.map(Arc::new),
         analysis: Some(analysis),
+    })
+}
+
+/// The shown points' labels with the peduncle as it was told; `None` where the file's own labels tell it,
+/// or there is none.
+fn told_labels(fruit: &Fruit, shown: &ShownPoints) -> Option<Vec<i32>> {
+    let peduncle = fruit.peduncle.as_ref()?;
+    if peduncle.source == PeduncleSource::Label {
+        return None;
+    }
+    let cloud = fruit.cloud();
+    // What the file calls the peduncle and nobody else does is the fruit's.
+    let of_file = |i: usize| match cloud.labels().map(|labels| labels[i]) {
+        None | Some(Cloud::PEDUNCLE) => Cloud::FRUIT,
+        Some(other) => other,
+    };
+    let mut labels: Vec<i32> = (0..cloud.len()).map(of_file).collect();
+    for &i in &peduncle.in_cloud {
+        labels[i] = Cloud::PEDUNCLE;
+    }
+    Some(match &shown.in_file {
+        Some(in_file) => in_file.iter().map(|&i| labels[i]).collect(),
+        None => labels,
     })
 }
 

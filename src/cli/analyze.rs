@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Context;
-use axiscope::evaluate::{AnalysisReport, Examined, Timings, TruthChoice, examine, peduncle_disagreement_deg, reference_of};
+use axiscope::evaluate::{
+    AnalysisReport, Examined, Timings, TruthChoice, examine, peduncle_disagreement_deg, reference_of,
+};
 use axiscope::geometry::Unit;
 use axiscope::io::Fruit;
 use axiscope::method::{Aggregation, Analysis, AxisEstimate, CenterMethod, Stage};
@@ -154,10 +156,7 @@ fn write_text(
         _ => row(out, "Reference axis", "none: no peduncle is known")?,
     }
     if let Some(second) = reference_of(references, TruthChoice::PeduncleDirection) {
-        let text = format!(
-            "{} (the peduncle's own direction)",
-            direction(second.direction)
-        );
+        let text = format!("{} (the peduncle's own direction)", direction(second.direction));
         row(out, "Second reference", &text)?;
         row(out, "Error", &error_to(second))?;
         if let Some(apart) = peduncle_disagreement_deg(references) {

@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{CloudFile, PickedPoints, ReadError, read_annotations, read_cloud, read_cloud_watched, unit_guess};
+use super::{
+    CloudFile, PickedPoints, ReadError, read_annotations, read_cloud, read_cloud_watched, unit_guess,
+};
 use crate::annotate::Annotation;
 use crate::geometry::{Cloud, Unit, Watch};
 use crate::reference::{HueRange, Peduncle, PeduncleError};
@@ -256,12 +258,10 @@ fn find_peduncle(file: &CloudFile, choice: &PeduncleChoice) -> Result<Option<Ped
         }
         PeduncleChoice::Points(picked) if picked.of(&file.sha256).is_some() => {
             let picked = picked.of(&file.sha256).map(|p| Peduncle::by_points(cloud, p));
-            picked
-                .unwrap_or(Ok(None))
-                .map_err(|error| FruitError::Peduncle {
-                    path: path.clone(),
-                    error,
-                })
+            picked.unwrap_or(Ok(None)).map_err(|error| FruitError::Peduncle {
+                path: path.clone(),
+                error,
+            })
         }
         PeduncleChoice::Auto | PeduncleChoice::Points(_) => {
             if let Ok(peduncle) = Peduncle::by_label(cloud) {

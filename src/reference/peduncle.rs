@@ -1,9 +1,9 @@
 //! The peduncle, and the reference axis that it gives (§ 3.2).
 
-use glam::DVec3;
 use super::{HueRange, hue_deg};
 use crate::geometry::{Cloud, Extent, Neighbors, PointSet, Spread};
 use crate::method::{AxisEstimate, AxisSource};
+use glam::DVec3;
 
 /// How a cloud's peduncle was told from its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -244,9 +244,9 @@ impl Peduncle {
     pub const LEAST_FOR_DIRECTION: usize = 10;
 
     /// How far the points must be spread along their direction, in multiples of their spread across it.
-    /// A tube that is as long as it is wide has none; at this ratio thirty points still tell theirs to
-    /// about 10°.
-    pub const LEAST_ELONGATION: f64 = 1.5;
+    /// A tube that is as long as it is wide has none, and the half of a stump that a camera sees is spread
+    /// up to about twice as far across as it is deep.
+    pub const LEAST_ELONGATION: f64 = 2.0;
 
     /// The standard deviation of the points along the direction of their greatest spread, in multiples
     /// of the greatest one across it; infinite for points on a line, 1 for a single point.

@@ -66,7 +66,13 @@ impl Brush {
             let along = to - from;
             let share = (pixel - from).dot(along) / along.length_squared();
             // A dab has no length, and every share of it is its one place.
-            let nearest = from + along * if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
+            let nearest = from
+                + along
+                    * if share.is_finite() {
+                        share.clamp(0.0, 1.0)
+                    } else {
+                        0.0
+                    };
             pixel.distance_squared(nearest) <= reach
         })
     }

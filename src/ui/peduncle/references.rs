@@ -1,0 +1,130 @@
+//! Both references that a peduncle gives, how far they are apart, and both of the paper's experiments.
+
+use egui::{Color32, Grid, Label, Ui};
+
+use super::super::controls::{caution, hint};
+use crate::app::peduncle::Errors;
+use crate::app::{Command, PeduncleCommand, State};
+use crate::evaluate::{peduncle_disagreement_deg, sentence};
+use crate::method::AxisSource;
+use crate::reference::axis_error_rad;
+use crate::view::reference_color;
+
+/// From this many degrees on a reference is not to be trusted blindly: about twice the published errors.
+const FAR_APART_DEG: f64 = 15.0;
+
+/// Shows both references with the axis' error against each.
+pub(in crate::ui) fn show(ui: &mut Ui, state: &State) {
+    let Some(walked) = &state.walked else { return };
+    let Some(peduncle) = &walked.fruit.peduncle else {
+        return;
+    };
+    ui.add_space(2.0);
+    Grid::new("peduncle references")
+        .num_columns(2)
+        .spacing([8.0, 3.0])
+        .show(ui, |ui| {
+            for (source, text, tip) in [
+                (
+                    AxisSource::Peduncle,
+                    "center to its mean",
+                    "The reference of § 3.2: from the fruit center through the mean of the peduncle's points. It is \
+                     off where the center is.",
+                ),
+                (
+                    AxisSource::PeduncleDirection,
+                    "its own direction",
+                    "The line along which the peduncle's points are spread most. It does not depend on the center, \
+                     but a bent peduncle leaves the fruit's axis.",
+                ),
+            ] {
+                let reference = state.references.iter().find(|r| r.source == source);
+                let [r, g, b, _] = reference_color(&source);
+                ui.horizontal(|ui| {
+                    let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
+                    ui.painter()
+                        .rect_filled(rect, 2.0, Color32::from_rgb(r, g, b));
+                    ui.add(Label::new(text)).on_hover_text(tip);
+                });
+                let error = reference
+                    .zip(walked.analysis.axis.as_ref())
+                    .map(|(reference, axis)| axis_error_rad(axis, reference).to_degrees());
+                ui.label(match (reference, error) {
+                    (None, _) => "none".into(),
+                    (_, None) => "no axis".into(),
+                    (_, Some(error)) => format!("{error:.1}° off"),
+                });
+                ui.end_row();
+            }
+        });
+    match peduncle_disagreement_deg(&state.references) {
+        Some(apart) if apart >= FAR_APART_DEG => {
+            caution(
+                ui,
+                format!(
+                    "The two are {apart:.1}° apart: an error against either says as much of the reference as of the \
+                     method."
+                ),
+            );
+        }
+        Some(apart) => {
+            hint(ui, format!("The two are {apart:.1}° apart."));
+        }
+        None => {
+            if let Err(why) = peduncle.direction_axis(walked.analysis.center) {
+                hint(ui, sentence(&why.to_string()));
+            }
+        }
+    }
+}
+
+/// Shows the errors with and without the peduncle.
+pub(in crate::ui) fn beside(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let picking = &state.peduncle;
+    let has_peduncle = state
+        .walked
+        .as_ref()
+        .is_some_and(|walked| walked.fruit.peduncle.is_some());
+    let mut wants = picking.wants_beside;
+    let tip = "Analyze this cloud both ways, as the paper's two experiments do, and show both errors.";
+    let response = ui
+        .add_enabled(
+            has_peduncle || wants,
+            egui::Checkbox::new(&mut wants, "Compare with and without"),
+        )
+        .on_hover_text(tip);
+    if response.changed() {
+        commands.push(Command::Peduncle(PeduncleCommand::Compare(wants)));
+    }
+    if !picking.wants_beside || !has_peduncle {
+        return;
+    }
+    let Some(beside) = &picking.beside else {
+        ui.horizontal(|ui| {
+            ui.spinner();
+            ui.label("analyzing both ways …");
+        });
+        return;
+    };
+    let source = state.reference().map(|reference| &reference.source);
+    let words = |errors: &Errors| match errors {
+        Err(why) => why.clone(),
+        Ok(errors) => {
+            let of = errors.iter().find(|(s, _)| Some(s) == source);
+            of.map_or("no reference".into(), |(_, error)| format!("{error:.1}° off"))
+        }
+    };
+    Grid::new("with and without")
+        .num_columns(2)
+        .spacing([8.0, 3.0])
+        .show(ui, |ui| {
+            for (text, errors) in [
+                ("with the peduncle", &beside.with),
+                ("without the peduncle", &beside.without),
+            ] {
+                ui.label(text);
+                ui.label(words(errors));
+                ui.end_row();
+            }
+        });
+}
