@@ -3,13 +3,14 @@
 mod driving;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use axiscope::app::peduncle::Question;
 use axiscope::app::{App, Command, PeduncleCommand, Session, Tool, command_line};
 use axiscope::evaluate::{Request, TruthChoice, peduncle_disagreement_deg};
 use axiscope::geometry::{Cloud, PointSet};
 use axiscope::io::ply::{WriteOptions, write};
-use axiscope::io::{PeduncleChoice, read_cloud};
+use axiscope::io::{PeduncleChoice, PickedPoints, read_cloud};
 use axiscope::method::AxisSource;
 use axiscope::reference::{HueRange, Peduncle, PeduncleSource, axis_error_rad};
 use axiscope::render::Viewport;
@@ -95,6 +96,21 @@ fn picked(app: &App) -> PointSet {
 
 fn choice(app: &App) -> PeduncleChoice {
     app.state().settings.request.peduncle.clone()
+}
+
+/// These points of the current cloud are its peduncle.
+fn pick(app: &mut App, points: &PointSet) {
+    let sha256 = app
+        .state()
+        .walked
+        .as_ref()
+        .expect("analyzed")
+        .fruit
+        .file
+        .sha256
+        .clone();
+    let picked = PickedPoints::default().with(&sha256, Arc::new(points.clone()));
+    ask(app, PeduncleCommand::Choose(PeduncleChoice::Points(picked)));
 }
 
 /// How many points are drawn in the highlight's color.
@@ -204,19 +220,29 @@ fn picking_begins_with_the_peduncle_that_there_is() {
     act(&mut app, Command::View(ViewPreset::Camera));
     act(&mut app, Command::Use(Tool::Lasso));
     assert_eq!(highlighted(&app), labeled().len());
+    // Nothing of the fruit is near its peduncle here: half of it grows into the other half.
+    let half: PointSet = labeled().iter().step_by(2).collect();
+    pick(&mut app, &half);
     ask(&mut app, PeduncleCommand::Grow);
-    assert!(labeled().iter().all(|i| picked(&app).contains(i)));
-    assert!(picked(&app).len() > labeled().len());
     let grown = picked(&app);
+    assert!(half.iter().all(|i| grown.contains(i)) && grown.len() > half.len());
+    assert!(grown.iter().all(|i| labeled().contains(i)));
+    pick(&mut app, &half);
     ask(&mut app, PeduncleCommand::Shrink);
-    assert!(picked(&app).iter().all(|i| grown.contains(i)) && picked(&app).len() < grown.len());
+    assert!(picked(&app).iter().all(|i| half.contains(i)) && picked(&app).len() < half.len());
     // Pressed quickly, each press counts.
-    for _ in 0..3 {
-        app.apply(Command::Peduncle(PeduncleCommand::Grow));
+    let few: PointSet = labeled().iter().take(1).collect();
+    let mut sizes = Vec::new();
+    for presses in [1, 3] {
+        pick(&mut app, &few);
+        for _ in 0..presses {
+            app.apply(Command::Peduncle(PeduncleCommand::Grow));
+        }
+        settle(&mut app);
+        sizes.push(picked(&app).len());
     }
-    settle(&mut app);
-    assert!(picked(&app).len() > grown.len());
-    for _ in 0..5 {
+    assert!(1 < sizes[0] && sizes[0] < sizes[1], "{sizes:?}");
+    while app.state().can_undo {
         act(&mut app, Command::Undo);
     }
     assert_eq!(choice(&app), PeduncleChoice::Auto);
@@ -253,7 +279,7 @@ fn what_is_picked_belongs_to_its_cloud_alone() {
         fruit.peduncle.as_ref().map(|p| p.source),
         Some(PeduncleSource::Label)
     );
-    ask(&mut app, PeduncleCommand::Grow);
+    ask(&mut app, PeduncleCommand::Invert);
     assert!(picked(&app).len() > labeled().len());
     act(&mut app, Command::Go(-1));
     assert_eq!(picked(&app), first, "the first one's is still there");
@@ -290,7 +316,7 @@ fn the_label_coloring_shows_what_was_picked() {
         .iter()
         .find(|s| s.label == "peduncle")
         .expect("it is told");
-    assert_eq!(swatch.count.as_ref().map(|c| c.count), Some(picked(&app).len()));
+    assert_eq!(swatch.count.map(|c| c.0), Some(picked(&app).len()));
 }
 
 #[test]
@@ -356,7 +382,7 @@ fn a_saved_companion_gives_the_same_references_in_the_window_and_on_the_command_
     assert!((report["peduncle_disagreement_deg"].as_f64().expect("a number") - apart).abs() < 1e-6);
 
     // What changes is not saved any more, and what comes back is.
-    ask(&mut app, PeduncleCommand::Grow);
+    ask(&mut app, PeduncleCommand::Invert);
     assert!(app.state().has_unsaved_peduncle() && !has_peduncle(&app));
     act(&mut app, Command::Undo);
     assert_eq!(app.state().saved_peduncle(), Some(&*companion));

@@ -14,7 +14,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: 
     }
     let picking = &state.peduncle;
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("Peduncle").strong());
+        ui.label(RichText::new("Peduncle:").strong());
         for (text, tool, tip) in [
             ("Lasso", Tool::Lasso, "Go around its points (K)"),
             ("Brush", Tool::Brush, "Paint over its points (B)"),

@@ -80,9 +80,9 @@ fn stroke(
 ) {
     let is_ours = response.is_pointer_button_down_on();
     ui.input(|i| {
-        let removes = takes_away(i.modifiers);
+        let mut removes = false;
         let (mut is_open, mut is_ended) = (is_drawing, false);
-        let mut draw = |pos: Pos2| {
+        let mut draw = |pos: Pos2, removes: bool| {
             let at_px = local(pos);
             commands.push(Command::Peduncle(PeduncleCommand::Draw { at_px, removes }));
         };
@@ -93,19 +93,20 @@ fn stroke(
                     pos,
                     button: PointerButton::Primary,
                     pressed: true,
-                    ..
+                    modifiers,
                 } if is_ours => {
                     is_open = true;
-                    draw(*pos);
+                    removes = takes_away(*modifiers);
+                    draw(*pos, removes);
                 }
-                egui::Event::PointerMoved(pos) if is_open => draw(*pos),
+                egui::Event::PointerMoved(pos) if is_open => draw(*pos, removes),
                 egui::Event::PointerButton {
                     pos,
                     button: PointerButton::Primary,
                     pressed: false,
                     ..
                 } if is_open => {
-                    draw(*pos);
+                    draw(*pos, removes);
                     (is_open, is_ended) = (false, true);
                 }
                 _ => {}
