@@ -208,7 +208,6 @@ fn notices(ui: &egui::Ui, rect: Rect, state: &State) {
     if state.tool == Tool::MoveCenter {
         lines.push("Drag to move the fruit center; Esc ends it.".into());
     }
-    lines.extend(peduncle::hint(state).map(String::from));
     let mut at = rect.min + vec2(12.0, 12.0);
     for line in lines {
         let color = ui.visuals().strong_text_color();

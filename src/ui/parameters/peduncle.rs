@@ -93,7 +93,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, edit: &mut Edit<'_>, commands: &m
         }
         pick(ui, state, commands);
         if state.walked.is_some() && !state.is_stale {
-            references(ui, state);
+            references(ui, state, commands);
         }
         ui.add_space(2.0);
         let tip = "Leave the peduncle's points out of the analysis: the paper's second variant of its data \
@@ -144,7 +144,7 @@ fn ways(ui: &mut Ui, state: &State, way: Way) -> Option<Way> {
                 ),
                 Choice::new(
                     Way::Removed,
-                    "what another folder lacks",
+                    "another folder",
                     "The points that are missing in the cloud of the same name in a folder of clouds without their \
                      peduncles, which is how the paper's data come.",
                 ),

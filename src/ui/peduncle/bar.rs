@@ -3,9 +3,11 @@
 use egui::{Button, DragValue, RichText, Ui};
 
 use super::super::actions::{Act, Action};
-use super::super::controls::warning_color;
+use super::super::controls::{self, warning_color};
+use super::tools::hint;
 use crate::app::peduncle::PedunclePath;
 use crate::app::{Command, PeduncleCommand, State, Tool};
+use crate::view::PEDUNCLE_MARK;
 
 /// Shows the bar, where a tool is in hand.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
@@ -78,6 +80,10 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: 
             acts.push(Act::App(Command::Use(Tool::Navigate)));
         }
     });
+    if let Some(text) = hint(state) {
+        // Not over the view: the peduncle is often at its upper edge.
+        controls::hint(ui, text);
+    }
 }
 
 fn save(ui: &mut Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
@@ -92,6 +98,10 @@ fn save(ui: &mut Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
     if state.peduncle.is_working {
         ui.spinner();
     }
+    let (swatch, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
+    let [r, g, b, _] = PEDUNCLE_MARK;
+    ui.painter()
+        .rect_filled(swatch, 2.0, egui::Color32::from_rgb(r, g, b));
     let count = state.peduncle.marked.as_ref().map(|marked| marked.points);
     let count = count.map_or(String::new(), |points| match points {
         0 => "no point is picked".into(),

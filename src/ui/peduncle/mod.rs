@@ -11,4 +11,4 @@ pub(super) use bar::show as bar;
 pub(super) use hues::show as hue_bar;
 pub(super) use question::show as question;
 pub(super) use references::{beside, show as references};
-pub(super) use tools::{drag, hint, paint};
+pub(super) use tools::{drag, paint};

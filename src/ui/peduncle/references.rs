@@ -8,13 +8,13 @@ use crate::app::{Command, PeduncleCommand, State};
 use crate::evaluate::{peduncle_disagreement_deg, sentence};
 use crate::method::AxisSource;
 use crate::reference::axis_error_rad;
-use crate::view::reference_color;
+use crate::view::{Overlay, reference_color};
 
 /// From this many degrees on a reference is not to be trusted blindly: about twice the published errors.
 const FAR_APART_DEG: f64 = 15.0;
 
 /// Shows both references with the axis' error against each.
-pub(in crate::ui) fn show(ui: &mut Ui, state: &State) {
+pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(walked) = &state.walked else { return };
     let Some(peduncle) = &walked.fruit.peduncle else {
         return;
@@ -39,7 +39,13 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State) {
                 ),
             ] {
                 let reference = state.references.iter().find(|r| r.source == source);
-                let [r, g, b, _] = reference_color(&source);
+                // The one that errors are measured against is drawn in white.
+                let is_chosen = state.reference().is_some_and(|r| r.source == source);
+                let [r, g, b, _] = if is_chosen {
+                    [255; 4]
+                } else {
+                    reference_color(&source)
+                };
                 ui.horizontal(|ui| {
                     let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
                     ui.painter()
@@ -57,6 +63,16 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State) {
                 ui.end_row();
             }
         });
+    let mut style = state.style.clone();
+    let mut shows_all = style.overlays.has(Overlay::References);
+    if ui
+        .checkbox(&mut shows_all, "Show all references")
+        .on_hover_text("Draw every reference axis that there is in the view, dashed, besides the one that errors are measured against")
+        .changed()
+    {
+        style.overlays.set(Overlay::References, shows_all);
+        commands.push(Command::Style(Box::new(style)));
+    }
     match peduncle_disagreement_deg(&state.references) {
         Some(apart) if apart >= FAR_APART_DEG => {
             caution(

@@ -173,8 +173,8 @@ pub(in crate::ui) fn paint(ui: &egui::Ui, response: &egui::Response, rect: Rect,
     }
 }
 
-/// What the view says while a tool is in hand; `None` where none is.
-pub(in crate::ui) fn hint(state: &State) -> Option<&'static str> {
+/// What is said under the bar while a tool is in hand; `None` where none is.
+pub(super) fn hint(state: &State) -> Option<&'static str> {
     match state.tool {
         Tool::Lasso => Some(
             "Drag around the peduncle to add its points, with Shift to take some away. Right drag turns the view, \
