@@ -157,7 +157,7 @@ fn write_text(
     }
     if let Some(second) = reference_of(references, TruthChoice::PeduncleDirection) {
         let text = format!("{} (the peduncle's own direction)", direction(second.direction));
-        row(out, "Second reference", &text)?;
+        row(out, "2nd reference", &text)?;
         row(out, "Error", &error_to(second))?;
         if let Some(apart) = peduncle_disagreement_deg(references) {
             let text = format!("the two references are {apart:.2}° apart");
@@ -182,7 +182,7 @@ fn write_text(
 }
 
 fn row(out: &mut impl Write, name: &str, value: &str) -> std::io::Result<()> {
-    writeln!(out, "{name:<18}{value}")
+    writeln!(out, "{name:<16}{value}")
 }
 
 /// The parameters that decide how the paper is read, in words.

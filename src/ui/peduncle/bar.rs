@@ -71,7 +71,11 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: 
         button(ui, "Invert", PeduncleCommand::Invert, actions, acts);
         button(ui, "Clear", PeduncleCommand::Clear, actions, acts);
         ui.separator();
-        save(ui, state, actions, acts);
+        button(ui, "Save", PeduncleCommand::Save, actions, acts);
+        let tip = "Save the peduncle's points as a PLY file of their own, wherever you like";
+        if ui.button("Save as …").on_hover_text(tip).clicked() {
+            say(acts, PeduncleCommand::Ask(PedunclePath::SaveAs));
+        }
         if ui
             .button("Done")
             .on_hover_text("Put the tool away (Esc)")
@@ -80,21 +84,17 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: 
             acts.push(Act::App(Command::Use(Tool::Navigate)));
         }
     });
-    if let Some(text) = hint(state) {
-        // Not over the view: the peduncle is often at its upper edge.
-        controls::hint(ui, text);
-    }
+    // Not over the view: the peduncle is often at its upper edge.
+    ui.horizontal(|ui| {
+        picked(ui, state);
+        if let Some(text) = hint(state) {
+            controls::hint(ui, text);
+        }
+    });
 }
 
-fn save(ui: &mut Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
-    button(ui, "Save", PeduncleCommand::Save, actions, acts);
-    if ui
-        .button("Save as …")
-        .on_hover_text("Save the peduncle's points as a PLY file of their own, wherever you like")
-        .clicked()
-    {
-        say(acts, PeduncleCommand::Ask(PedunclePath::SaveAs));
-    }
+/// How many points are picked, and whether they lie in a file.
+fn picked(ui: &mut Ui, state: &State) {
     if state.peduncle.is_working {
         ui.spinner();
     }
