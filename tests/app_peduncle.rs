@@ -34,7 +34,7 @@ fn drag(app: &mut App, removes: bool, path_px: &[DVec2]) {
 
 /// A copy of the bundled pepper without labels, colors and normals, in a folder of its own.
 fn bare_pepper(folder: &TempDir) -> PathBuf {
-    let cloud = read_cloud(&asset("pepper.ply")).expect("the sample").ply.cloud;
+    let cloud = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
     write_cloud(
         &Cloud::new(cloud.positions().to_vec()),
         &folder.path().join("bare.ply"),
@@ -82,7 +82,7 @@ fn around(app: &App, points: &PointSet) -> Vec<DVec2> {
 
 /// The points that the bundled pepper's labels call its peduncle.
 fn labeled() -> PointSet {
-    let cloud = read_cloud(&asset("pepper.ply")).expect("the sample").ply.cloud;
+    let cloud = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
     let peduncle = Peduncle::by_label(&cloud).expect("labeled");
     peduncle.in_cloud.into_iter().collect()
 }
@@ -500,7 +500,7 @@ fn a_range_of_hues_is_previewed_and_an_empty_one_is_told() {
 #[test]
 fn a_folder_without_peduncles_tells_what_it_lacks_and_what_does_not_fit() {
     let folder = TempDir::new().expect("a folder");
-    let cloud = read_cloud(&asset("pepper.ply")).expect("the sample").ply.cloud;
+    let cloud = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
     let full = write_cloud(
         &Cloud::new(cloud.positions().to_vec()),
         &folder.path().join("a.ply"),
@@ -546,7 +546,7 @@ fn a_dropped_companion_is_offered() {
     let folder = TempDir::new().expect("a folder");
     let mut app = open(&bare_pepper(&folder));
     let dropped = folder.path().join("other_peduncle.ply");
-    let cloud = read_cloud(&asset("pepper.ply")).expect("the sample").ply.cloud;
+    let cloud = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
     write_cloud(&cloud.select(&labeled().iter().collect::<Vec<_>>()), &dropped);
     ask(&mut app, PeduncleCommand::Offer(dropped.clone()));
     assert_eq!(

@@ -125,10 +125,10 @@ proptest! {
         };
         let more = grown(&points, &selected, reach, &()).expect("nobody calls it off");
         let fewer = shrunk(&points, &selected, reach, &()).expect("nobody calls it off");
-        for i in 0..points.len() {
+        for (i, &point) in points.iter().enumerate() {
             let is_in = selected.contains(i);
-            prop_assert_eq!(more.contains(i), is_in || near(points[i], &|j| selected.contains(j)));
-            prop_assert_eq!(fewer.contains(i), is_in && !near(points[i], &|j| !selected.contains(j)));
+            prop_assert_eq!(more.contains(i), is_in || near(point, &|j| selected.contains(j)));
+            prop_assert_eq!(fewer.contains(i), is_in && !near(point, &|j| !selected.contains(j)));
         }
         let farther = grown(&points, &selected, 1.5 * reach, &()).expect("nobody calls it off");
         prop_assert!(more.iter().all(|i| farther.contains(i)), "a longer reach takes no less");

@@ -9,7 +9,7 @@ use crate::geometry::{Cancelled, Cloud, Plane, Watch};
 use crate::io::Fruit;
 use crate::method::{Analysis, AxisEstimate, AxisSource, PlaneDetail, plane_detail, symmetry_axis};
 use crate::reference::PeduncleSource;
-use crate::render::Scene;
+use crate::render::{Color, Scene};
 use crate::view::{
     Coloring, ColoringError, Legend, NEUTRAL, Overlay, Overlays, SceneSettings, ShownPoints, Subject, Theme,
     build_bare_scene, build_scene, color_bare, color_labels, color_points,
@@ -227,16 +227,7 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         return Err(Cancelled);
     }
     if let (Some(range), Some(detail)) = (&brush_cm, &detail) {
-        let tau = params.tau_cm_per_rad;
-        let is_in = |place: &Option<usize>| {
-            let partner = place.and_then(|i| detail.points[i].partner);
-            partner.is_some_and(|p| range.contains(&p.score_cm(tau)))
-        };
-        for (color, place) in colored.colors.iter_mut().zip(&shown.in_surface) {
-            if !is_in(place) {
-                *color = NEUTRAL;
-            }
-        }
+        gray_outside(range, detail, params.tau_cm_per_rad, &shown, &mut colored.colors);
     }
     let mut scene = build_scene(subject, &colored, &settings);
     scene.scale_lines(pixels_per_point);
@@ -255,6 +246,25 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         contributions: contributions.map(Arc::new),
         analysis: Some(analysis),
     })
+}
+
+/// Grays the points whose contribution d + τξ, in centimeters, is outside of a range.
+fn gray_outside(
+    range: &RangeInclusive<f64>,
+    detail: &PlaneDetail,
+    tau_cm_per_rad: f64,
+    shown: &ShownPoints,
+    colors: &mut [Color],
+) {
+    let is_in = |place: &Option<usize>| {
+        let partner = place.and_then(|i| detail.points[i].partner);
+        partner.is_some_and(|p| range.contains(&p.score_cm(tau_cm_per_rad)))
+    };
+    for (color, place) in colors.iter_mut().zip(&shown.in_surface) {
+        if !is_in(place) {
+            *color = NEUTRAL;
+        }
+    }
 }
 
 /// The shown points' labels with the peduncle as it was told; `None` where the file's own labels tell it,

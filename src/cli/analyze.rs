@@ -79,10 +79,9 @@ fn write_text(
     let Examined {
         fruit,
         analysis,
-        references,
         warnings,
+        ..
     } = examined;
-    let reference = reference_of(references, TruthChoice::Peduncle);
     let (params, unit) = (&analysis.params, fruit.unit);
     let grid = analysis.planes.grid;
     let (points, used) = (fruit.cloud().len(), analysis.surface.len());
@@ -132,6 +131,33 @@ fn write_text(
         Some(axis) => row(out, "Symmetry axis", &direction(axis.direction))?,
         None => row(out, "Symmetry axis", "none")?,
     }
+    write_references(out, examined)?;
+    let Timings {
+        read,
+        normals,
+        center,
+        plane_terms,
+        total,
+    } = timings;
+    let text = format!(
+        "{total:.1} ms: read {read:.1}, normals {normals:.1}, center {center:.1}, planes {plane_terms:.1}"
+    );
+    row(out, "Time", &text)?;
+    for (i, warning) in warnings.iter().enumerate() {
+        writeln!(out, "{}Warning: {warning}", if i == 0 { "\n" } else { "" })?;
+    }
+    Ok(())
+}
+
+/// The peduncle's references, the axis' error against each, and how far they are apart.
+fn write_references(out: &mut impl Write, examined: &Examined) -> std::io::Result<()> {
+    let Examined {
+        fruit,
+        analysis,
+        references,
+        ..
+    } = examined;
+    let reference = reference_of(references, TruthChoice::Peduncle);
     let error_to = |reference: &AxisEstimate| match &analysis.axis {
         Some(axis) => format!("{:.2}°", axis_error_rad(axis, reference).to_degrees()),
         None => "none without an axis".into(),
@@ -163,20 +189,6 @@ fn write_text(
             let text = format!("the two references are {apart:.2}° apart");
             row(out, "", &text)?;
         }
-    }
-    let Timings {
-        read,
-        normals,
-        center,
-        plane_terms,
-        total,
-    } = timings;
-    let text = format!(
-        "{total:.1} ms: read {read:.1}, normals {normals:.1}, center {center:.1}, planes {plane_terms:.1}"
-    );
-    row(out, "Time", &text)?;
-    for (i, warning) in warnings.iter().enumerate() {
-        writeln!(out, "{}Warning: {warning}", if i == 0 { "\n" } else { "" })?;
     }
     Ok(())
 }

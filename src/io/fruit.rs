@@ -240,7 +240,7 @@ fn find_peduncle(file: &CloudFile, choice: &PeduncleChoice) -> Result<Option<Ped
     };
     let asked = |found: Result<Peduncle, PeduncleError>| {
         found.map(Some).map_err(|error| FruitError::Peduncle {
-            path: path.to_path_buf(),
+            path: path.clone(),
             error,
         })
     };

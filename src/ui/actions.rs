@@ -238,7 +238,10 @@ fn edit_actions(state: &State) -> Vec<Action> {
     let preset = state.settings.request.params.preset();
     let is_moving = state.tool == Tool::MoveCenter;
     let is_drawing = state.peduncle.strokes.back().is_some_and(|s| !s.is_ended);
-    let escape = if is_drawing {
+    let escape = if state.peduncle.question.is_some() {
+        let dismiss = Command::Peduncle(PeduncleCommand::Dismiss);
+        Action::app(Edit, "Drop the question", dismiss)
+    } else if is_drawing {
         let drop = Command::Peduncle(PeduncleCommand::DropStroke);
         Action::app(Edit, "Drop this stroke", drop)
     } else if state.progress.is_some() {

@@ -83,7 +83,7 @@ fn snapshot(harness: &mut Bench, name: &str) {
 
 /// A copy of the bundled pepper of which only positions, or positions and colors, are left.
 fn pepper(folder: &TempDir, has_colors: bool) -> PathBuf {
-    let cloud = read_cloud(&asset("pepper.ply")).expect("the sample").ply.cloud;
+    let cloud = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
     let mut copy = Cloud::new(cloud.positions().to_vec());
     if has_colors {
         let colors = cloud.colors().expect("it has some").to_vec();
@@ -104,7 +104,7 @@ fn write_cloud(cloud: &Cloud, path: &Path) -> PathBuf {
 }
 
 fn labeled() -> PointSet {
-    let cloud = read_cloud(&asset("pepper.ply")).expect("the sample").ply.cloud;
+    let cloud = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
     let peduncle = Peduncle::by_label(&cloud).expect("labeled");
     peduncle.in_cloud.into_iter().collect()
 }
@@ -314,7 +314,10 @@ fn what_is_picked_is_saved_with_a_key_and_never_over_another_file() {
         picked(&harness)
     );
     harness.get_by_label_contains("saved as fruit_peduncle.ply");
-    // The path is another one every time: the question is looked at with a usual one.
+    // Once more is no question, but another peduncle is.
+    press(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    assert_eq!(state(&harness).peduncle.question, None);
+    apply(&mut harness, Command::Peduncle(PeduncleCommand::Invert));
     press(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     assert_eq!(
         state(&harness).peduncle.question,
@@ -342,7 +345,7 @@ impl egui::DroppedFile for Dropped {
 fn a_dropped_companion_is_offered_as_the_peduncle() {
     let folder = TempDir::new().expect("a folder");
     let mut harness = window([1100.0, 720.0], vec![pepper(&folder, true)]);
-    let cloud = read_cloud(&asset("pepper.ply")).expect("the sample").ply.cloud;
+    let cloud = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
     let indices: Vec<usize> = labeled().iter().collect();
     let dropped = write_cloud(&cloud.select(&indices), &folder.path().join("x_peduncle.ply"));
     harness.input_mut().dropped_files = vec![Arc::new(Dropped(dropped.clone()))];

@@ -83,9 +83,6 @@ impl App {
 }
 
 fn written(fruit: &Fruit, points: Arc<PointSet>, path: PathBuf, replaces: bool) -> Written {
-    if !replaces && path.exists() {
-        return Written::Exists(path);
-    }
     let indices: Vec<usize> = points.iter().collect();
     let companion = fruit.cloud().select(&indices);
     let name = fruit.file.path.file_name().unwrap_or_default().to_string_lossy();
@@ -98,6 +95,18 @@ fn written(fruit: &Fruit, points: Arc<PointSet>, path: PathBuf, replaces: bool) 
     };
     let mut bytes = Vec::new();
     let made = write(&mut bytes, &companion, &options).map_err(|error| error.to_string());
+    if !replaces && path.exists() {
+        // Saved by an earlier session: there is nothing to replace.
+        return if made.is_ok() && std::fs::read(&path).is_ok_and(|there| there == bytes) {
+            Written::Done {
+                path,
+                sha256: fruit.file.sha256.clone(),
+                points,
+            }
+        } else {
+            Written::Exists(path)
+        };
+    }
     let done = made.and_then(|()| {
         DiskFiles::default()
             .replace(&path, &bytes)

@@ -89,7 +89,9 @@ impl PartialEq for Wanted {
 
 /// The newest projection of a cloud: it serves all strokes until the camera moves.
 #[derive(Debug, Clone, Default)]
-pub(in crate::app) struct Screens(Arc<Mutex<Option<(ScreenKey, Arc<Screen>)>>>);
+pub(in crate::app) struct Screens(Arc<Mutex<Kept>>);
+
+type Kept = Option<(ScreenKey, Arc<Screen>)>;
 
 #[derive(Debug, Clone, PartialEq)]
 struct ScreenKey {

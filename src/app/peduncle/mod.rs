@@ -30,6 +30,10 @@ pub use marks::Marked;
 
 /// What there is to show of picking the peduncle.
 #[derive(Debug, Clone)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each says one thing that is so or not"
+)]
 pub struct PeduncleState {
     /// The brush's radius in logical pixels.
     pub brush_radius_px: f64,
