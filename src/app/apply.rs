@@ -137,6 +137,7 @@ impl App {
         };
         self.state.entries.remove(current);
         self.state.current = None;
+        self.leave_peduncle();
         if self.state.entries.is_empty() {
             self.analysis.cancel();
             self.looks.cancel();

@@ -232,7 +232,10 @@ impl Window {
             let offer = PeduncleCommand::Offer(path.clone());
             acts.push(Act::App(Command::Peduncle(offer)));
         } else if !dropped.is_empty() {
-            acts.push(Act::App(Command::Open(dropped)));
+            // A companion comes along with its cloud.
+            let has_cloud = |path: &PathBuf| dropped.iter().any(|cloud| companion_path(cloud) == *path);
+            let clouds = dropped.iter().filter(|path| !has_cloud(path));
+            acts.push(Act::App(Command::Open(clouds.cloned().collect())));
         }
         while let Ok(answer) = self.answers.1.try_recv() {
             acts.push(Act::App(match answer {

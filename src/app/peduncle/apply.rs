@@ -63,7 +63,6 @@ impl App {
                 picking.wants_beside = wants;
                 if !wants {
                     picking.beside = None;
-                    picking.is_beside_pending = false;
                     self.peduncle.asked_beside = None;
                     self.peduncle.besides.cancel();
                 }
@@ -78,6 +77,7 @@ impl App {
         self.update_hues();
         self.update_beside();
         self.update_marks();
+        self.state.peduncle.beside_progress = self.peduncle.besides.progress();
         self.state.peduncle.is_working = self.peduncle.edits.is_busy()
             || !self.peduncle.waiting_edits.is_empty()
             || self.peduncle.companions.is_busy();

@@ -32,7 +32,6 @@ pub(in crate::app) struct Key {
 impl App {
     pub(in crate::app) fn update_beside(&mut self) {
         if let Some((_, result)) = self.peduncle.besides.take() {
-            self.state.peduncle.is_beside_pending = false;
             match result {
                 Ok(beside) => self.state.peduncle.beside = beside,
                 Err(crash) => self.say(true, format!("The comparison broke off by {crash}.")),
@@ -57,7 +56,6 @@ impl App {
         self.peduncle.asked_beside.clone_from(&wanted);
         let Some(key) = wanted else { return };
         let mut stages = self.stages.clone();
-        self.state.peduncle.is_beside_pending = true;
         self.peduncle.besides.submit(move |watch| {
             let mut of = |without_peduncle: bool| {
                 let request = Request {

@@ -19,7 +19,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::state::Tool;
-use super::worker::{Lane, Repaint};
+use super::worker::{Lane, Progress, Repaint};
 use crate::geometry::PointSet;
 use crate::io::PeduncleChoice;
 use crate::render::{Camera, Viewport};
@@ -57,8 +57,8 @@ pub struct PeduncleState {
     pub wants_beside: bool,
     /// What they came to, once that is known.
     pub beside: Option<Beside>,
-    /// Whether they are being computed.
-    pub is_beside_pending: bool,
+    /// How far they are, while they are being computed.
+    pub beside_progress: Option<Progress>,
     /// Companions that were written, and what is in them.
     saved: Vec<Saved>,
 }
@@ -77,7 +77,7 @@ impl Default for PeduncleState {
             question: None,
             wants_beside: false,
             beside: None,
-            is_beside_pending: false,
+            beside_progress: None,
             saved: Vec::new(),
         }
     }

@@ -1,8 +1,9 @@
 //! Both references that a peduncle gives, how far they are apart, and both of the paper's experiments.
 
-use egui::{Color32, Grid, Label, Ui};
+use egui::{Color32, Grid, Label, ProgressBar, Ui};
 
 use super::super::controls::{caution, hint};
+use super::super::status::stage_name;
 use crate::app::peduncle::Errors;
 use crate::app::{Command, PeduncleCommand, State};
 use crate::evaluate::{peduncle_disagreement_deg, sentence};
@@ -102,7 +103,7 @@ pub(in crate::ui) fn beside(ui: &mut Ui, state: &State, commands: &mut Vec<Comma
         .as_ref()
         .is_some_and(|walked| walked.fruit.peduncle.is_some());
     let mut wants = picking.wants_beside;
-    let tip = "Analyze this cloud both ways, as the paper's two experiments do, and show both errors.";
+    let tip = "Analyze this cloud both ways, as the paper's two experiments do, and show both errors. Unchecking calls it off.";
     let response = ui
         .add_enabled(
             has_peduncle || wants,
@@ -116,10 +117,12 @@ pub(in crate::ui) fn beside(ui: &mut Ui, state: &State, commands: &mut Vec<Comma
         return;
     }
     let Some(beside) = &picking.beside else {
-        ui.horizontal(|ui| {
-            ui.spinner();
-            ui.label("analyzing both ways …");
-        });
+        if let Some(progress) = picking.beside_progress {
+            let stage = progress.stage.map_or("Reading", stage_name);
+            let text = format!("{stage} · {:.0} %", 100.0 * progress.share);
+            // Unchecking calls it off.
+            ui.add(ProgressBar::new(progress.share as f32).text(text));
+        }
         return;
     };
     let source = state.reference().map(|reference| &reference.source);
