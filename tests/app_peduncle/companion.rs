@@ -39,6 +39,14 @@ fn a_saved_companion_gives_the_same_references_in_the_window_and_on_the_command_
     let apart = peduncle_disagreement_deg(&by_hand).expect("both");
     assert!((report["peduncle_disagreement_deg"].as_f64().expect("a number") - apart).abs() < 1e-6);
 
+    // After a restart it is still known to be saved.
+    let session = Session::of(app.state());
+    let mut again = App::new(session, &(Arc::new(|| {}) as _)).expect("threads can be started");
+    act(&mut again, Command::Open(vec![bare.clone()]));
+    assert_eq!(picked(&again), picked(&app));
+    assert_eq!(again.state().saved_peduncle(), Some(&*companion));
+    assert!(again.state().messages.is_empty(), "which nobody has to be told");
+
     // What changes is not saved any more, and what comes back is.
     ask(&mut app, PeduncleCommand::Invert);
     assert!(app.state().has_unsaved_peduncle() && !has_peduncle(&app));

@@ -363,6 +363,26 @@ fn a_dropped_companion_is_offered_as_the_peduncle() {
     assert_eq!(state(&harness).settings.request.peduncle, PeduncleChoice::Auto);
 }
 
+#[test]
+fn a_companion_that_is_dropped_with_its_cloud_is_its_peduncle() {
+    let folder = TempDir::new().expect("a folder");
+    let cloud = pepper(&folder, true);
+    let full = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
+    let indices: Vec<usize> = labeled().iter().collect();
+    let companion = write_cloud(&full.select(&indices), &folder.path().join("fruit_peduncle.ply"));
+    let mut harness = window([1000.0, 700.0], Vec::new());
+    let files = [companion, cloud];
+    harness.input_mut().dropped_files = files.map(|path| Arc::new(Dropped(path)) as _).to_vec();
+    settle(&mut harness);
+    assert_eq!(state(&harness).entries.len(), 1, "one cloud");
+    let fruit = &state(&harness).walked.as_ref().expect("analyzed").fruit;
+    let found = fruit.peduncle.as_ref().expect("found");
+    assert_eq!(
+        (found.source, found.points),
+        (PeduncleSource::Companion, labeled().len())
+    );
+}
+
 /// The parameters' panel with the peduncle's section open and everything above it closed.
 fn open_section(harness: &mut Bench) {
     click(harness, "Peduncle");

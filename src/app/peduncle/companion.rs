@@ -9,17 +9,17 @@ use crate::annotate::Files as _;
 use crate::app::App;
 use crate::app::stages::Source;
 use crate::geometry::PointSet;
-use crate::io::ply::{Precision, WriteOptions, write};
+use crate::io::ply::{Precision, WriteError, WriteOptions, write};
 use crate::io::{DiskFiles, Fruit, companion_path};
 
 /// What came of writing a companion.
 pub(in crate::app) enum Written {
     /// It is there.
-    Done {
-        path: PathBuf,
-        sha256: String,
-        points: Arc<PointSet>,
-    },
+    Done(Saved),
+    /// It was there already, from an earlier session; nobody has asked.
+    Known(Saved),
+    /// There is none, or it holds something else; nobody has asked.
+    Unknown,
     /// There was a file already, and nothing was written.
     Exists(PathBuf),
     /// It could not be written. A sentence.
@@ -60,21 +60,54 @@ impl App {
             .submit(move |_| written(&walked.fruit, points, path, replaces));
     }
 
+    /// What an earlier session picked may lie in the companion already.
+    fn compare_companion(&mut self) {
+        let (Some(walked), Some(points)) = (self.state.current_walked(), self.state.picked_peduncle()) else {
+            return;
+        };
+        let sha256 = &walked.fruit.file.sha256;
+        if self.peduncle.companions.is_busy() || self.peduncle.compared.contains(sha256) {
+            return;
+        }
+        let (walked, points) = (walked.clone(), points.clone());
+        self.peduncle.compared.insert(sha256.clone());
+        self.peduncle.companions.submit(move |_| {
+            let fruit = &walked.fruit;
+            let path = companion_path(&fruit.file.path);
+            let there = std::fs::read(&path);
+            if !there.is_ok_and(|there| companion_bytes(fruit, &points).is_ok_and(|b| b == there)) {
+                return Written::Unknown;
+            }
+            Written::Known(Saved {
+                path,
+                sha256: fruit.file.sha256.clone(),
+                points,
+            })
+        });
+    }
+
+    fn know(&mut self, saved: Saved) {
+        self.state.peduncle.saved.retain(|known| known.path != saved.path);
+        self.state.peduncle.saved.push(saved);
+    }
+
     pub(in crate::app) fn update_companions(&mut self) {
+        self.compare_companion();
         let Some((_, result)) = self.peduncle.companions.take() else {
             return;
         };
         match result {
-            Ok(Written::Done { path, sha256, points }) => {
+            Ok(Written::Done(saved)) => {
                 let text = format!(
                     "Saved {} points of the peduncle as {}.",
-                    points.len(),
-                    path.display()
+                    saved.points.len(),
+                    saved.path.display()
                 );
-                self.state.peduncle.saved.retain(|saved| saved.path != path);
-                self.state.peduncle.saved.push(Saved { path, sha256, points });
+                self.know(saved);
                 self.say(false, text);
             }
+            Ok(Written::Known(saved)) => self.know(saved),
+            Ok(Written::Unknown) => {}
             Ok(Written::Exists(path)) => self.state.peduncle.question = Some(Question::Replace(path)),
             Ok(Written::Failed(problem)) => self.say(true, problem),
             Err(crash) => self.say(true, format!("Saving the peduncle broke off by {crash}.")),
@@ -82,7 +115,8 @@ impl App {
     }
 }
 
-fn written(fruit: &Fruit, points: Arc<PointSet>, path: PathBuf, replaces: bool) -> Written {
+/// The companion's bytes.
+fn companion_bytes(fruit: &Fruit, points: &PointSet) -> Result<Vec<u8>, WriteError> {
     let indices: Vec<usize> = points.iter().collect();
     let companion = fruit.cloud().select(&indices);
     let name = fruit.file.path.file_name().unwrap_or_default().to_string_lossy();
@@ -94,30 +128,29 @@ fn written(fruit: &Fruit, points: Arc<PointSet>, path: PathBuf, replaces: bool) 
         ..WriteOptions::default()
     };
     let mut bytes = Vec::new();
-    let made = write(&mut bytes, &companion, &options).map_err(|error| error.to_string());
-    if !replaces && path.exists() {
-        // Saved by an earlier session: there is nothing to replace.
-        return if made.is_ok() && std::fs::read(&path).is_ok_and(|there| there == bytes) {
-            Written::Done {
-                path,
-                sha256: fruit.file.sha256.clone(),
-                points,
-            }
-        } else {
-            Written::Exists(path)
-        };
-    }
-    let done = made.and_then(|()| {
-        DiskFiles::default()
-            .replace(&path, &bytes)
-            .map_err(|e| e.to_string())
-    });
+    write(&mut bytes, &companion, &options)?;
+    Ok(bytes)
+}
+
+fn written(fruit: &Fruit, points: Arc<PointSet>, path: PathBuf, replaces: bool) -> Written {
+    let made = companion_bytes(fruit, &points).map_err(|error| error.to_string());
+    let done = if replaces || !path.exists() {
+        made.and_then(|bytes| {
+            let replaced = DiskFiles::default().replace(&path, &bytes);
+            replaced.map_err(|error| error.to_string())
+        })
+    } else if made.is_ok_and(|bytes| std::fs::read(&path).is_ok_and(|there| there == bytes)) {
+        // Saved before: there is nothing to replace.
+        Ok(())
+    } else {
+        return Written::Exists(path);
+    };
     match done {
-        Ok(()) => Written::Done {
+        Ok(()) => Written::Done(Saved {
             path,
             sha256: fruit.file.sha256.clone(),
             points,
-        },
+        }),
         Err(why) => Written::Failed(format!(
             "{}: the peduncle was not saved ({why}). What was picked is still here; save it elsewhere.",
             path.display()

@@ -19,6 +19,7 @@ pub(in crate::app) struct Edited {
     sha256: String,
     from: Arc<PointSet>,
     to: Arc<PointSet>,
+    spacing: f64,
 }
 
 impl App {
@@ -34,18 +35,23 @@ impl App {
         else {
             return;
         };
+        let sha256 = walked.fruit.file.sha256.clone();
+        let known = self.peduncle.spacing.as_ref().filter(|(of, _)| *of == sha256);
+        let known = known.map(|(_, spacing)| *spacing);
         self.peduncle.edits.submit(move |watch| {
             let points = walked.fruit.cloud().positions();
-            let reach = edit.reach_spacings * median_spacing(points).unwrap_or(0.0);
+            let spacing = known.or_else(|| median_spacing(points)).unwrap_or(0.0);
+            let reach = edit.reach_spacings * spacing;
             let to = if edit.grows {
                 grown(points, &from, reach, watch)?
             } else {
                 shrunk(points, &from, reach, watch)?
             };
             Ok(Edited {
-                sha256: walked.fruit.file.sha256.clone(),
+                sha256,
                 from,
                 to: Arc::new(to),
+                spacing,
             })
         });
         if let Some(result) = self.peduncle.edits.take_within(crate::app::PATIENCE) {
@@ -71,6 +77,7 @@ impl App {
                 return;
             }
         };
+        self.peduncle.spacing = Some((edited.sha256.clone(), edited.spacing));
         let is_current = self
             .state
             .current_walked()

@@ -12,7 +12,7 @@ mod edits;
 mod hues;
 mod marks;
 
-use std::collections::VecDeque;
+use std::collections::{HashSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -113,7 +113,7 @@ pub enum Question {
 
 /// A companion that was written.
 #[derive(Debug, Clone)]
-struct Saved {
+pub(in crate::app) struct Saved {
     path: PathBuf,
     sha256: String,
     points: Arc<PointSet>,
@@ -183,7 +183,11 @@ pub(super) struct Work {
     screens: marks::Screens,
     edits: Lane<Result<edits::Edited, crate::geometry::Cancelled>>,
     waiting_edits: VecDeque<edits::Edit>,
+    /// The median spacing of a cloud's points, by its SHA-256, which takes a tree of them to tell.
+    spacing: Option<(String, f64)>,
     companions: Lane<companion::Written>,
+    /// Clouds whose companions were compared with what the last session had picked.
+    compared: HashSet<String>,
     hues: Lane<Option<Hues>>,
     asked_hues: Option<String>,
     besides: Lane<Option<Beside>>,
@@ -199,7 +203,9 @@ impl Work {
             screens: marks::Screens::default(),
             edits: Lane::new("edits", repaint.clone())?,
             waiting_edits: VecDeque::new(),
+            spacing: None,
             companions: Lane::new("companion", repaint.clone())?,
+            compared: HashSet::new(),
             hues: Lane::new("hues", repaint.clone())?,
             asked_hues: None,
             besides: Lane::new("with and without", repaint.clone())?,
