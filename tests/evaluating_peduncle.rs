@@ -106,6 +106,23 @@ fn evaluate_agrees_with_analyze_on_every_reference_with_and_without_the_peduncle
 }
 
 #[test]
+fn both_experiments_in_one_go_are_the_two_one_by_one() {
+    let out = TempDir::new().unwrap();
+    let path = |name: &str| out.path().join(name);
+    evaluate(&path("both"), "--both");
+    for (name, options) in [("with-peduncle", ""), ("without-peduncle", "--without-peduncle")] {
+        evaluate(&path(name), options);
+        for file in ["results.csv", "summary.json"] {
+            let read = |folder: &Path| std::fs::read(folder.join(file)).unwrap();
+            assert_eq!(read(&path("both").join(name)), read(&path(name)), "{name} {file}");
+        }
+    }
+    assert_ne!(rows(&path("with-peduncle")), rows(&path("without-peduncle")));
+    let refused = run(["evaluate", "x", "--both", "--without-peduncle"]);
+    assert_eq!(refused.status, 2, "one of them at a time");
+}
+
+#[test]
 fn resumed_runs_and_shards_give_the_unbroken_run_s_rows_with_and_without_the_peduncle() {
     for options in ["--truth peduncle", "--truth peduncle --without-peduncle"] {
         let folder = TempDir::new().unwrap();
