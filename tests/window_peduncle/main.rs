@@ -485,3 +485,18 @@ fn what_does_not_fit_is_told_in_the_panel() {
     settle(&mut harness);
     snapshot(&mut harness, "removed_missing");
 }
+
+#[test]
+fn the_tools_fit_a_narrow_window_in_the_light() {
+    let folder = TempDir::new().expect("a folder");
+    let mut harness = window([820.0, 620.0], vec![pepper(&folder, true)]);
+    press(&mut harness, Modifiers::NONE, Key::T);
+    apply(&mut harness, Command::View(ViewPreset::Front));
+    press(&mut harness, Modifiers::NONE, Key::K);
+    let path = around_the_peduncle(&harness);
+    draw(&mut harness, Modifiers::NONE, &path);
+    assert!(picked(&harness) > 0);
+    harness.remove_cursor();
+    settle(&mut harness);
+    snapshot(&mut harness, "narrow_light");
+}

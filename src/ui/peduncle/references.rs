@@ -49,8 +49,11 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
                 };
                 ui.horizontal(|ui| {
                     let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
+                    // White stands on a light ground as well.
+                    let outline = egui::Stroke::new(1.0, ui.visuals().weak_text_color());
+                    let fill = Color32::from_rgb(r, g, b);
                     ui.painter()
-                        .rect_filled(rect, 2.0, Color32::from_rgb(r, g, b));
+                        .rect(rect, 2.0, fill, outline, egui::StrokeKind::Inside);
                     ui.add(Label::new(text)).on_hover_text(tip);
                 });
                 let error = reference
