@@ -43,8 +43,8 @@ fn the_sample_comes_analyzed_as_the_library_does() {
     assert_eq!(look.plane_index, direct.ranking.best().ok());
     assert_eq!(look.scene.points[0].positions.len(), walked.fruit.cloud().len());
     assert!(!app.state().is_stale && !app.state().is_look_pending);
-    // Its truth and its labels come with it.
-    assert_eq!(app.state().references.len(), 2);
+    // Its truth and its labels, which give two references, come with it.
+    assert_eq!(app.state().references.len(), 3);
 }
 
 #[test]

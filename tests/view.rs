@@ -307,6 +307,7 @@ fn each_overlay_has_a_switch() {
             plane: Some(fixture.detail.plane),
             axis: fixture.analysis.axis.as_ref(),
             reference: Some(&reference),
+            references: std::slice::from_ref(&reference),
         };
         assert!(framed_points(fixture.subject(), &settings).len() > 400);
         build_scene(fixture.subject(), &colored, &settings)

@@ -80,6 +80,7 @@ impl App {
                 self.state.camera = projected(&self.state.camera, projection);
             }
             Command::Use(tool) => self.state.tool = tool,
+            Command::Peduncle(command) => self.apply_peduncle(command),
             Command::MoveCenter(center) => {
                 let mut request = self.state.settings.request.clone();
                 request.params.center = CenterMethod::Given(center);
@@ -114,6 +115,7 @@ impl App {
             return;
         }
         self.state.current = Some(place);
+        self.leave_peduncle();
         // A plane is chosen for one cloud; the next one begins with its best.
         self.state.settings.plane = PlaneChoice::Best;
         self.state.is_playing = false;
@@ -135,6 +137,7 @@ impl App {
         };
         self.state.entries.remove(current);
         self.state.current = None;
+        self.leave_peduncle();
         if self.state.entries.is_empty() {
             self.analysis.cancel();
             self.looks.cancel();

@@ -40,6 +40,7 @@ pub fn command_line(state: &State, out: &str, size_px: [u32; 2]) -> Vec<String> 
     match state.truth {
         TruthChoice::Truth => add("--reference", "truth".into()),
         TruthChoice::Manual => add("--reference", "manual".into()),
+        TruthChoice::PeduncleDirection => add("--reference", "peduncle-direction".into()),
         TruthChoice::Auto | TruthChoice::Peduncle => {}
     }
     if let Some(shown) = state.shown() {
@@ -54,7 +55,11 @@ pub fn command_line(state: &State, out: &str, size_px: [u32; 2]) -> Vec<String> 
     if !state.style.eye_dome {
         words.push("--flat".into());
     }
-    words.extend(analysis_options(&state.settings.request));
+    let mut request = state.settings.request.clone();
+    if let Some(path) = state.saved_peduncle() {
+        request.peduncle = PeduncleChoice::File(path.to_owned());
+    }
+    words.extend(analysis_options(&request));
     words
 }
 
@@ -118,7 +123,8 @@ pub fn analysis_options(request: &Request) -> Vec<String> {
     }
     if let PeduncleChoice::Removed(folder) = &request.peduncle {
         add("--removed", folder.display().to_string());
-    } else if request.peduncle != PeduncleChoice::Auto {
+    } else if !matches!(request.peduncle, PeduncleChoice::Auto | PeduncleChoice::Points(_)) {
+        // Points that were picked have a name once they are saved.
         add("--peduncle", request.peduncle.to_string());
     }
     if let Some(outliers) = params.filters.outliers {

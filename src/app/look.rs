@@ -5,12 +5,14 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::geometry::{Cancelled, Plane, Watch};
+use crate::geometry::{Cancelled, Cloud, Plane, Watch};
+use crate::io::Fruit;
 use crate::method::{Analysis, AxisEstimate, AxisSource, PlaneDetail, plane_detail, symmetry_axis};
-use crate::render::Scene;
+use crate::reference::PeduncleSource;
+use crate::render::{Color, Scene};
 use crate::view::{
     Coloring, ColoringError, Legend, NEUTRAL, Overlay, Overlays, SceneSettings, ShownPoints, Subject, Theme,
-    build_bare_scene, build_scene, color_bare, color_points,
+    build_bare_scene, build_scene, color_bare, color_labels, color_points,
 };
 
 /// How a cloud is drawn, whichever it is.
@@ -54,12 +56,16 @@ pub struct Question {
     pub plane: Option<usize>,
     /// The axis that it is compared with.
     pub reference: Option<AxisEstimate>,
+    /// All axes that there are to compare with.
+    pub references: Vec<AxisEstimate>,
     /// How it is drawn.
     pub style: Style,
     /// Physical pixels a point of the style's sizes.
     pub pixels_per_point: f32,
     /// Contributions d + τξ in centimeters, outside of which points are grayed.
     pub brush_cm: Option<RangeInclusive<f64>>,
+    /// The cloud, whose peduncle may be told otherwise than by its labels; `None` where it was not analyzed.
+    pub fruit: Option<Arc<Fruit>>,
     /// What there may be already of the plane.
     pub detail: Option<Arc<PlaneDetail>>,
 }
@@ -136,7 +142,7 @@ impl Contributions {
 /// Generations are counted over the whole program, so that no view mistakes one for another.
 static GENERATION: AtomicU64 = AtomicU64::new(1);
 
-fn next_generation() -> u64 {
+pub(super) fn next_generation() -> u64 {
     GENERATION.fetch_add(1, Ordering::Relaxed)
 }
 
@@ -151,9 +157,11 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         analysis,
         plane,
         reference,
+        references,
         style,
         pixels_per_point,
         brush_cm,
+        fruit,
         detail,
     } = question;
     let point_size_px = pixels_per_point * point_size(&style, shown.len());
@@ -165,6 +173,7 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         plane: None,
         axis: None,
         reference: reference.as_ref(),
+        references: &references,
     };
     let Some(analysis) = analysis else {
         return Ok(bare_look(
@@ -206,7 +215,11 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         analysis: &analysis,
         detail: detail.as_deref(),
     };
-    let (mut colored, fallback) = match color_points(subject, style.coloring) {
+    let told = fruit.filter(|_| style.coloring == Coloring::Label);
+    let (mut colored, fallback) = match told.and_then(|fruit| told_labels(&fruit, &shown)).map_or_else(
+        || color_points(subject, style.coloring),
+        |labels| Ok(color_labels(&labels)),
+    ) {
         Ok(colored) => (colored, None),
         Err(why) => (color_bare(&shown, style.coloring), Some(why)),
     };
@@ -214,16 +227,7 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         return Err(Cancelled);
     }
     if let (Some(range), Some(detail)) = (&brush_cm, &detail) {
-        let tau = params.tau_cm_per_rad;
-        let is_in = |place: &Option<usize>| {
-            let partner = place.and_then(|i| detail.points[i].partner);
-            partner.is_some_and(|p| range.contains(&p.score_cm(tau)))
-        };
-        for (color, place) in colored.colors.iter_mut().zip(&shown.in_surface) {
-            if !is_in(place) {
-                *color = NEUTRAL;
-            }
-        }
+        gray_outside(range, detail, params.tau_cm_per_rad, &shown, &mut colored.colors);
     }
     let mut scene = build_scene(subject, &colored, &settings);
     scene.scale_lines(pixels_per_point);
@@ -241,6 +245,48 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         fallback,
         contributions: contributions.map(Arc::new),
         analysis: Some(analysis),
+    })
+}
+
+/// Grays the points whose contribution d + τξ, in centimeters, is outside of a range.
+fn gray_outside(
+    range: &RangeInclusive<f64>,
+    detail: &PlaneDetail,
+    tau_cm_per_rad: f64,
+    shown: &ShownPoints,
+    colors: &mut [Color],
+) {
+    let is_in = |place: &Option<usize>| {
+        let partner = place.and_then(|i| detail.points[i].partner);
+        partner.is_some_and(|p| range.contains(&p.score_cm(tau_cm_per_rad)))
+    };
+    for (color, place) in colors.iter_mut().zip(&shown.in_surface) {
+        if !is_in(place) {
+            *color = NEUTRAL;
+        }
+    }
+}
+
+/// The shown points' labels with the peduncle as it was told; `None` where the file's own labels tell it,
+/// or there is none.
+fn told_labels(fruit: &Fruit, shown: &ShownPoints) -> Option<Vec<i32>> {
+    let peduncle = fruit.peduncle.as_ref()?;
+    if peduncle.source == PeduncleSource::Label {
+        return None;
+    }
+    let cloud = fruit.cloud();
+    // What the file calls the peduncle and nobody else does is the fruit's.
+    let of_file = |i: usize| match cloud.labels().map(|labels| labels[i]) {
+        None | Some(Cloud::PEDUNCLE) => Cloud::FRUIT,
+        Some(other) => other,
+    };
+    let mut labels: Vec<i32> = (0..cloud.len()).map(of_file).collect();
+    for &i in &peduncle.in_cloud {
+        labels[i] = Cloud::PEDUNCLE;
+    }
+    Some(match &shown.in_file {
+        Some(in_file) => in_file.iter().map(|&i| labels[i]).collect(),
+        None => labels,
     })
 }
 

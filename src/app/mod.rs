@@ -17,6 +17,7 @@ mod history;
 mod image;
 pub mod look;
 mod navigate;
+pub mod peduncle;
 mod samples;
 mod session;
 mod stages;
@@ -48,6 +49,7 @@ pub use caption::{caption, lead_in_words};
 pub use command_line::{analysis_options, command_line, quoted};
 pub use history::History as UndoHistory;
 pub use navigate::{default_camera, dragged};
+pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};
 pub use stages::{Source, Walked};
@@ -103,6 +105,7 @@ pub struct App {
     picks: Lane<(PickQuestion, Option<usize>)>,
     images: Lane<Result<String, String>>,
     discard: Discard,
+    peduncle: peduncle::Work,
     asked: Option<Asked>,
     seen: Option<Seen>,
     shown_generation: u64,
@@ -141,6 +144,7 @@ impl App {
             picks: Lane::new("pick", repaint.clone())?,
             images: Lane::new("image", repaint.clone())?,
             discard: Discard::new()?,
+            peduncle: peduncle::Work::new(repaint)?,
             asked: None,
             seen: None,
             shown_generation: 0,
@@ -169,7 +173,11 @@ impl App {
 
     /// Whether the workers have anything to do, or to hand out.
     pub fn is_busy(&self) -> bool {
-        self.analysis.is_busy() || self.looks.is_busy() || self.picks.is_busy() || self.images.is_busy()
+        self.analysis.is_busy()
+            || self.looks.is_busy()
+            || self.picks.is_busy()
+            || self.images.is_busy()
+            || self.peduncle.is_busy()
     }
 
     /// What is to be done once a frame: takes what the workers have made, and asks for what is wanted
@@ -180,6 +188,7 @@ impl App {
         self.take_analysis(None);
         self.ask_for_analysis();
         self.ask_for_look();
+        self.update_peduncle();
         self.ask_for_pick();
         if let Some((_, result)) = self.images.take() {
             let (is_error, text) = match result {
@@ -383,9 +392,11 @@ impl App {
                 analysis: self.state.analysis().cloned(),
                 plane: wanted.plane,
                 reference: self.state.reference().cloned(),
+                references: self.state.references.clone(),
                 style: wanted.style.clone(),
                 pixels_per_point: wanted.pixels_per_point,
                 brush_cm: wanted.brush_cm.clone(),
+                fruit: self.state.walked.as_ref().map(|walked| walked.fruit.clone()),
                 detail: wanted.plane.and_then(|index| self.details.get(index)),
             };
             let before = self.state.look.clone();

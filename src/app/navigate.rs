@@ -49,6 +49,7 @@ fn framed(state: &State) -> (Vec<DVec3>, Insets) {
                 plane,
                 axis: axis.as_ref(),
                 reference: state.reference(),
+                references: &state.references,
             },
         ),
         (None, _) => framed_cloud(shown),

@@ -8,6 +8,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::look::{Look, Style};
+use super::peduncle::{PeduncleCommand, PeduncleState};
 use super::samples::Sample;
 use super::stages::{Source, Walked};
 use super::worker::Progress;
@@ -86,6 +87,10 @@ pub enum Tool {
     Navigate,
     /// It moves the fruit center.
     MoveCenter,
+    /// It goes around points that are the peduncle's.
+    Lasso,
+    /// It paints over points that are the peduncle's.
+    Brush,
 }
 
 /// Everything that the window shows.
@@ -141,6 +146,8 @@ pub struct State {
     pub pixels_per_point: f32,
     /// What dragging does.
     pub tool: Tool,
+    /// Picking the peduncle.
+    pub peduncle: PeduncleState,
     /// The picked point, by its index among the shown ones.
     pub picked: Option<usize>,
     /// The point under the cursor.
@@ -181,6 +188,7 @@ impl State {
             viewport: Viewport::new(800.0, 600.0),
             pixels_per_point: 1.0,
             tool: Tool::Navigate,
+            peduncle: PeduncleState::default(),
             picked: None,
             pointed_at: None,
             brush_cm: None,
@@ -335,6 +343,8 @@ pub enum Command {
     Use(Tool),
     /// Put the fruit center somewhere, in the file's unit and frame.
     MoveCenter(glam::DVec3),
+    /// Pick the peduncle.
+    Peduncle(PeduncleCommand),
 
     /// Make the interface larger or smaller.
     Scale(f32),

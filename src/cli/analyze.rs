@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Context;
-use axiscope::evaluate::{AnalysisReport, Examined, Timings, TruthChoice, examine, reference_of};
+use axiscope::evaluate::{
+    AnalysisReport, Examined, Timings, TruthChoice, examine, peduncle_disagreement_deg, reference_of,
+};
 use axiscope::geometry::Unit;
 use axiscope::io::Fruit;
-use axiscope::method::{Aggregation, Analysis, CenterMethod, Stage};
+use axiscope::method::{Aggregation, Analysis, AxisEstimate, CenterMethod, Stage};
 use axiscope::reference::{PeduncleSource, axis_error_rad};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
@@ -77,10 +79,9 @@ fn write_text(
     let Examined {
         fruit,
         analysis,
-        references,
         warnings,
+        ..
     } = examined;
-    let reference = reference_of(references, TruthChoice::Peduncle);
     let (params, unit) = (&analysis.params, fruit.unit);
     let grid = analysis.planes.grid;
     let (points, used) = (fruit.cloud().len(), analysis.surface.len());
@@ -130,29 +131,7 @@ fn write_text(
         Some(axis) => row(out, "Symmetry axis", &direction(axis.direction))?,
         None => row(out, "Symmetry axis", "none")?,
     }
-    match (reference, &fruit.peduncle) {
-        (Some(reference), Some(peduncle)) => {
-            let how = match peduncle.source {
-                PeduncleSource::Label => "labels",
-                PeduncleSource::Companion => "a file of its own",
-                PeduncleSource::Removal => "the cloud without it",
-                PeduncleSource::Hue(_) => "color",
-            };
-            let count = peduncle.points;
-            let text = format!(
-                "{} (peduncle: {count} points by {how})",
-                direction(reference.direction)
-            );
-            row(out, "Reference axis", &text)?;
-            let error = analysis
-                .axis
-                .as_ref()
-                .map(|axis| axis_error_rad(axis, reference).to_degrees());
-            let text = error.map_or("none without an axis".into(), |e| format!("{e:.2}°"));
-            row(out, "Error", &text)?;
-        }
-        _ => row(out, "Reference axis", "none: no peduncle is known")?,
-    }
+    write_references(out, examined)?;
     let Timings {
         read,
         normals,
@@ -166,6 +145,50 @@ fn write_text(
     row(out, "Time", &text)?;
     for (i, warning) in warnings.iter().enumerate() {
         writeln!(out, "{}Warning: {warning}", if i == 0 { "\n" } else { "" })?;
+    }
+    Ok(())
+}
+
+/// The peduncle's references, the axis' error against each, and how far they are apart.
+fn write_references(out: &mut impl Write, examined: &Examined) -> std::io::Result<()> {
+    let Examined {
+        fruit,
+        analysis,
+        references,
+        ..
+    } = examined;
+    let reference = reference_of(references, TruthChoice::Peduncle);
+    let error_to = |reference: &AxisEstimate| match &analysis.axis {
+        Some(axis) => format!("{:.2}°", axis_error_rad(axis, reference).to_degrees()),
+        None => "none without an axis".into(),
+    };
+    match (reference, &fruit.peduncle) {
+        (Some(reference), Some(peduncle)) => {
+            let how = match peduncle.source {
+                PeduncleSource::Label => "labels",
+                PeduncleSource::Companion => "a file of its own",
+                PeduncleSource::Removal => "the cloud without it",
+                PeduncleSource::Hue(_) => "color",
+                PeduncleSource::Picked => "hand",
+            };
+            let count = peduncle.points;
+            let text = format!(
+                "{} (peduncle: {count} points by {how})",
+                direction(reference.direction)
+            );
+            row(out, "Reference axis", &text)?;
+            row(out, "Error", &error_to(reference))?;
+        }
+        _ => row(out, "Reference axis", "none: no peduncle is known")?,
+    }
+    if let Some(second) = reference_of(references, TruthChoice::PeduncleDirection) {
+        let text = format!("{} (the peduncle's own direction)", direction(second.direction));
+        row(out, "2nd reference", &text)?;
+        row(out, "Error", &error_to(second))?;
+        if let Some(apart) = peduncle_disagreement_deg(references) {
+            let text = format!("the two references are {apart:.2}° apart");
+            row(out, "", &text)?;
+        }
     }
     Ok(())
 }

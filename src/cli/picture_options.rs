@@ -120,6 +120,8 @@ impl ViewOption {
 pub(super) enum ReferenceOption {
     /// The peduncle's, else the first there is
     Peduncle,
+    /// The peduncle's own direction, else the first there is
+    PeduncleDirection,
     /// The simulator's, else the first there is
     Truth,
     /// The one set by hand: the adjudicated one, else the annotators' mean, else the first there is
@@ -130,6 +132,7 @@ impl ReferenceOption {
     pub(super) fn choice(self) -> TruthChoice {
         match self {
             Self::Peduncle => TruthChoice::Peduncle,
+            Self::PeduncleDirection => TruthChoice::PeduncleDirection,
             Self::Truth => TruthChoice::Truth,
             Self::Manual => TruthChoice::Manual,
         }

@@ -161,6 +161,7 @@ pub(super) fn picture_of(examined: &Examined, drawing: Drawing<'_>, gpu: &Gpu) -
         plane: looked.as_ref().map(|l| l.plane),
         axis,
         reference,
+        references,
     };
     let mut scene = build_scene(subject, &colored, &settings);
     scene.scale_lines(axiscope::view::line_scale(picture.size[1]));

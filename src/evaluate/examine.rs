@@ -6,6 +6,7 @@ use crate::io::{Fruit, PeduncleChoice};
 use crate::method::{
     Analysis, AnalysisError, AxisEstimate, AxisSource, NormalSource, Observe, Params, analyze,
 };
+use crate::reference::axis_error_rad;
 use serde::{Deserialize, Serialize};
 
 /// What to do with a cloud, before anything is known of it.
@@ -45,6 +46,8 @@ pub enum TruthChoice {
     Auto,
     /// The peduncle's axis (§ 3.2).
     Peduncle,
+    /// The peduncle's own direction.
+    PeduncleDirection,
     /// The axis that was set by hand: the adjudicated one where there is one, else the mean of the
     /// annotators'.
     Manual,
@@ -94,10 +97,16 @@ pub fn compared(fruit: &Fruit, request: &Request, analysis: &Analysis) -> (Vec<A
     }
     warnings.extend(analysis.warnings.iter().map(|w| sentence(&w.to_string())));
     let mut references = Vec::new();
-    match fruit.peduncle.as_ref().map(|p| p.reference_axis(analysis.center)) {
-        Some(Ok(axis)) => references.push(axis),
-        Some(Err(error)) => warnings.push(sentence(&error.to_string())),
-        None => {}
+    if let Some(peduncle) = &fruit.peduncle {
+        for axis in [
+            peduncle.reference_axis(analysis.center),
+            peduncle.direction_axis(analysis.center),
+        ] {
+            match axis {
+                Ok(axis) => references.push(axis),
+                Err(error) => warnings.push(sentence(&error.to_string())),
+            }
+        }
     }
     if let Some(truth) = &fruit.truth {
         if truth.revolution_axis.is_some() {
@@ -135,11 +144,20 @@ pub fn reference_of(references: &[AxisEstimate], choice: TruthChoice) -> Option<
     match choice {
         TruthChoice::Manual => manual(),
         TruthChoice::Peduncle => of(AxisSource::Peduncle),
+        TruthChoice::PeduncleDirection => of(AxisSource::PeduncleDirection),
         TruthChoice::Truth => of(AxisSource::Simulation),
         TruthChoice::Auto => of(AxisSource::Simulation)
             .or_else(manual)
             .or_else(|| of(AxisSource::Peduncle)),
     }
+}
+
+/// How far the peduncle's two references are apart, in degrees; `None` where there are not both. Where it
+/// is much, an error against one of them says little of the method.
+pub fn peduncle_disagreement_deg(references: &[AxisEstimate]) -> Option<f64> {
+    let first = reference_of(references, TruthChoice::Peduncle)?;
+    let second = reference_of(references, TruthChoice::PeduncleDirection)?;
+    Some(axis_error_rad(first, second).to_degrees())
 }
 
 /// An error's text as a sentence of its own.

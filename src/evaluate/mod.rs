@@ -12,7 +12,9 @@ mod summary;
 mod sweep;
 mod table;
 
-pub use examine::{Examined, Request, TruthChoice, compared, examine, reference_of, sentence};
+pub use examine::{
+    Examined, Request, TruthChoice, compared, examine, peduncle_disagreement_deg, reference_of, sentence,
+};
 pub use report::{AnalysisReport, SCHEMA, Timings};
 pub use row::Row;
 pub use start::{StartError, start_axis};

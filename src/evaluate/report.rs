@@ -4,9 +4,9 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Examined, Request, TruthChoice, reference_of};
+use super::{Examined, Request, TruthChoice, peduncle_disagreement_deg, reference_of};
 use crate::geometry::Unit;
-use crate::method::{Aggregation, CenterMethod, NormalSource, Params};
+use crate::method::{Aggregation, AxisEstimate, CenterMethod, NormalSource, Params};
 use crate::reference::axis_error_rad;
 
 /// The schema's name and version.
@@ -23,6 +23,8 @@ pub struct AnalysisReport {
     best: Option<BestReport>,
     axis: Option<AxisReport>,
     reference: Option<ReferenceReport>,
+    references: Vec<ReferenceReport>,
+    peduncle_disagreement_deg: Option<f64>,
     warnings: Vec<String>,
     timings_ms: Timings,
 }
@@ -127,6 +129,14 @@ impl AnalysisReport {
             warnings,
         } = examined;
         let reference = reference_of(references, TruthChoice::Peduncle);
+        let reported = |reference: &AxisEstimate| ReferenceReport {
+            kind: reference.source.name().into_owned(),
+            direction: reference.direction.to_array(),
+            error_deg: analysis
+                .axis
+                .as_ref()
+                .map(|axis| axis_error_rad(axis, reference).to_degrees()),
+        };
         let planes = &analysis.planes;
         let rows = planes
             .grid
@@ -168,14 +178,9 @@ impl AnalysisReport {
                 origin: axis.origin.to_array(),
                 direction: axis.direction.to_array(),
             }),
-            reference: reference.map(|reference| ReferenceReport {
-                kind: reference.source.name().into_owned(),
-                direction: reference.direction.to_array(),
-                error_deg: analysis
-                    .axis
-                    .as_ref()
-                    .map(|axis| axis_error_rad(axis, reference).to_degrees()),
-            }),
+            reference: reference.map(reported),
+            references: references.iter().map(reported).collect(),
+            peduncle_disagreement_deg: peduncle_disagreement_deg(references),
             warnings: warnings.clone(),
             timings_ms,
         }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Examined, TruthChoice, reference_of};
+use super::{Examined, TruthChoice, peduncle_disagreement_deg, reference_of};
 use crate::geometry::Unit;
 use crate::method::{AxisEstimate, AxisSource};
 use crate::reference::axis_error_rad;
@@ -45,6 +45,12 @@ pub struct Row {
     pub error_deg: Option<f64>,
     /// The same against the peduncle's axis, whatever the reference.
     pub peduncle_error_deg: Option<f64>,
+    /// The same against the peduncle's own direction, whatever the reference.
+    #[serde(default)]
+    pub peduncle_direction_error_deg: Option<f64>,
+    /// How far the peduncle's two references are apart, 0 to 90 degrees.
+    #[serde(default)]
+    pub peduncle_disagreement_deg: Option<f64>,
     /// The same against the simulator's axis, whatever the reference.
     pub true_axis_error_deg: Option<f64>,
     /// Warnings, as sentences in a row.
@@ -73,6 +79,8 @@ impl Row {
             truth_axis: None,
             error_deg: None,
             peduncle_error_deg: None,
+            peduncle_direction_error_deg: None,
+            peduncle_disagreement_deg: None,
             true_axis_error_deg: None,
             warnings: String::new(),
             failure: Some(failure),
@@ -117,6 +125,8 @@ impl Row {
             truth_axis: truth.map(|t| t.direction.to_array()),
             error_deg: truth.and_then(error_to),
             peduncle_error_deg: error_to_source(AxisSource::Peduncle),
+            peduncle_direction_error_deg: error_to_source(AxisSource::PeduncleDirection),
+            peduncle_disagreement_deg: peduncle_disagreement_deg(&examined.references),
             true_axis_error_deg: error_to_source(AxisSource::Simulation),
             warnings: examined.warnings.join(" "),
             failure,

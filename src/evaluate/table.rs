@@ -39,7 +39,7 @@ macro_rules! components {
 }
 
 /// Every column, in their order.
-const COLUMNS: [Column; 28] = [
+const COLUMNS: [Column; 30] = [
     ("file", |row| Value::Text(Some(row.file.clone()))),
     ("sha256", |row| Value::Text(row.sha256.clone())),
     ("points", |row| Value::Count(row.points)),
@@ -63,6 +63,12 @@ const COLUMNS: [Column; 28] = [
     ("truth_z", components!(truth_axis, 2)),
     ("error_deg", |row| Value::Number(row.error_deg)),
     ("peduncle_error_deg", |row| Value::Number(row.peduncle_error_deg)),
+    ("peduncle_direction_error_deg", |row| {
+        Value::Number(row.peduncle_direction_error_deg)
+    }),
+    ("peduncle_disagreement_deg", |row| {
+        Value::Number(row.peduncle_disagreement_deg)
+    }),
     ("true_axis_error_deg", |row| {
         Value::Number(row.true_axis_error_deg)
     }),

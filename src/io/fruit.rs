@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{CloudFile, ReadError, read_annotations, read_cloud, read_cloud_watched, unit_guess};
+use super::{
+    CloudFile, PickedPoints, ReadError, read_annotations, read_cloud, read_cloud_watched, unit_guess,
+};
 use crate::annotate::Annotation;
 use crate::geometry::{Cloud, Unit, Watch};
 use crate::reference::{HueRange, Peduncle, PeduncleError};
@@ -25,6 +27,8 @@ pub enum PeduncleChoice {
     Removed(PathBuf),
     /// The points of a color.
     Hue(HueRange),
+    /// The points that were picked by hand; where none were of a cloud, as [`PeduncleChoice::Auto`].
+    Points(PickedPoints),
 }
 
 /// A fruit, read and understood.
@@ -38,6 +42,8 @@ pub struct Fruit {
     pub peduncle: Option<Peduncle>,
     /// The simulator's truth about it, where `NAME.truth.json` lies beside the cloud; in the cloud's unit.
     pub truth: Option<Truth>,
+    /// Why its peduncle was not found as asked, where that was passed over. A sentence.
+    pub peduncle_problem: Option<String>,
     /// What annotators say of its axis, in `NAME.ANNOTATOR.axis.json` beside the cloud.
     pub annotations: Vec<Annotation>,
     /// What the reader ought to know about the file, one sentence each.
@@ -102,6 +108,11 @@ impl Fruit {
         unit: Option<Unit>,
         choice: &PeduncleChoice,
     ) -> Result<Self, FruitError> {
+        let peduncle = find_peduncle(&file, choice)?;
+        Ok(Self::with_peduncle(file, unit, peduncle))
+    }
+
+    fn with_peduncle(file: Arc<CloudFile>, unit: Option<Unit>, peduncle: Option<Peduncle>) -> Self {
         let path = &file.path;
         let mut warnings: Vec<String> = file.ply.notes.iter().map(|note| format!("{note}.")).collect();
         let dropped = file.ply.dropped_not_finite;
@@ -113,7 +124,6 @@ impl Fruit {
         let stated = unit.or(file.ply.stated_unit);
         let (unit, _, doubt) = unit_guess::resolve(&file.ply.cloud, stated);
         warnings.extend(doubt);
-        let peduncle = find_peduncle(path, &file.ply.cloud, choice)?;
         let truth = match read_truth(&truth_path(path)) {
             Ok(truth) => truth.map(|truth| truth.in_unit(unit)),
             Err(problem) => {
@@ -123,13 +133,33 @@ impl Fruit {
         };
         let (annotations, unusable) = read_annotations(path, &file.sha256);
         warnings.extend(unusable);
-        Ok(Self {
+        Self {
             file,
             unit,
             peduncle,
             truth,
+            peduncle_problem: None,
             annotations,
             warnings,
+        }
+    }
+
+    /// As [`Fruit::of_file`], but where the peduncle is not found as asked there is none, and
+    /// [`Fruit::peduncle_problem`] says why: nobody has to look at an empty window while a range of hues
+    /// or a path is not the right one yet.
+    pub fn of_file_whatever_its_peduncle(
+        file: &Arc<CloudFile>,
+        unit: Option<Unit>,
+        choice: &PeduncleChoice,
+    ) -> Self {
+        Self::of_file(file.clone(), unit, choice).unwrap_or_else(|error| {
+            let problem = format!("{error}.");
+            let mut fruit = Self::with_peduncle(file.clone(), unit, None);
+            fruit
+                .warnings
+                .push(format!("The peduncle was not found as asked. {problem}"));
+            fruit.peduncle_problem = Some(problem);
+            fruit
         })
     }
 
@@ -198,11 +228,8 @@ fn parse_truth(path: &Path, text: &str) -> Result<Truth, String> {
     }
 }
 
-fn find_peduncle(
-    path: &Path,
-    cloud: &Cloud,
-    choice: &PeduncleChoice,
-) -> Result<Option<Peduncle>, FruitError> {
+fn find_peduncle(file: &CloudFile, choice: &PeduncleChoice) -> Result<Option<Peduncle>, FruitError> {
+    let (path, cloud) = (&file.path, &file.ply.cloud);
     let by_file = |companion: &Path| {
         Peduncle::by_companion(cloud, &read_cloud(companion)?.ply.cloud).map_err(|error| {
             FruitError::Peduncle {
@@ -213,7 +240,7 @@ fn find_peduncle(
     };
     let asked = |found: Result<Peduncle, PeduncleError>| {
         found.map(Some).map_err(|error| FruitError::Peduncle {
-            path: path.to_path_buf(),
+            path: path.clone(),
             error,
         })
     };
@@ -229,7 +256,14 @@ fn find_peduncle(
                 Err(error) => Err(FruitError::Peduncle { path: body, error }),
             }
         }
-        PeduncleChoice::Auto => {
+        PeduncleChoice::Points(picked) if picked.of(&file.sha256).is_some() => {
+            let picked = picked.of(&file.sha256).map(|p| Peduncle::by_points(cloud, p));
+            picked.unwrap_or(Ok(None)).map_err(|error| FruitError::Peduncle {
+                path: path.clone(),
+                error,
+            })
+        }
+        PeduncleChoice::Auto | PeduncleChoice::Points(_) => {
             if let Ok(peduncle) = Peduncle::by_label(cloud) {
                 return Ok(Some(peduncle));
             }
@@ -252,6 +286,7 @@ impl std::fmt::Display for PeduncleChoice {
             Self::File(path) => write!(f, "{}", path.display()),
             Self::Removed(folder) => write!(f, "removed={}", folder.display()),
             Self::Hue(range) => write!(f, "hue={}..{}", range.from_deg, range.to_deg),
+            Self::Points(_) => f.write_str("picked"),
         }
     }
 }

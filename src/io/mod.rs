@@ -8,6 +8,7 @@ mod annotations;
 mod cloud_file;
 pub mod figures;
 mod fruit;
+mod picked;
 mod picture;
 pub mod ply;
 pub mod unit_guess;
@@ -19,6 +20,7 @@ pub use cloud_file::{
     sha256_hex,
 };
 pub use fruit::{Fruit, FruitError, PeduncleChoice, companion_path, removed_path, truth_path};
+pub use picked::PickedPoints;
 pub use picture::{
     PictureError, PictureSettings, SETTINGS_KEY, encode_picture, paint_annotations, picture_settings,
     text_width_px,

@@ -46,6 +46,8 @@ pub enum AxisSource {
     SymmetryPlane,
     /// § 3.2: from the fruit center through the mean of the peduncle's points.
     Peduncle,
+    /// The line along which the peduncle's points are spread most.
+    PeduncleDirection,
     /// The simulator that made the cloud.
     Simulation,
     /// Somebody, by hand.
@@ -62,6 +64,7 @@ impl AxisSource {
         match self {
             Self::SymmetryPlane => "symmetry-plane".into(),
             Self::Peduncle => "peduncle".into(),
+            Self::PeduncleDirection => "peduncle-direction".into(),
             Self::Simulation => "simulation".into(),
             Self::Annotator(name) => format!("annotator:{name}").into(),
             Self::Annotators(count) => format!("annotators:{count}").into(),
@@ -75,7 +78,7 @@ impl AxisSource {
 pub struct AxisEstimate {
     /// Where it came from.
     pub source: AxisSource,
-    /// A point on it, in the file's unit and frame: the fruit center.
+    /// A point on it, in the file's unit and frame: mostly the fruit center.
     pub origin: DVec3,
     /// Its unit direction.
     pub direction: DVec3,

@@ -1,30 +1,9 @@
 //! The peduncle, and the reference axis that it gives (§ 3.2).
 
-use glam::DVec3;
-use serde::{Deserialize, Serialize};
-
-use crate::geometry::{Cloud, Extent, Neighbors};
+use super::{HueRange, hue_deg};
+use crate::geometry::{Cloud, Extent, Neighbors, PointSet, Spread};
 use crate::method::{AxisEstimate, AxisSource};
-
-/// A range of hues in degrees, 0 to 360; it may run through 0, as 350 to 20 does.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct HueRange {
-    /// Where it begins.
-    pub from_deg: f64,
-    /// Where it ends, inclusive.
-    pub to_deg: f64,
-}
-
-impl HueRange {
-    /// Whether a hue lies in the range.
-    pub fn contains(&self, hue_deg: f64) -> bool {
-        if self.from_deg <= self.to_deg {
-            (self.from_deg..=self.to_deg).contains(&hue_deg)
-        } else {
-            hue_deg >= self.from_deg || hue_deg <= self.to_deg
-        }
-    }
-}
+use glam::DVec3;
 
 /// How a cloud's peduncle was told from its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +16,8 @@ pub enum PeduncleSource {
     Removal,
     /// By color.
     Hue(HueRange),
+    /// Point by point, by hand.
+    Picked,
 }
 
 /// Why a cloud's peduncle was not found as asked.
@@ -81,9 +62,35 @@ pub enum PeduncleError {
         /// The other's points.
         body: usize,
     },
+    /// A point was picked that the cloud does not have.
+    #[error("point {index} (counted from 0) was picked, and the cloud has only {points} points")]
+    NoSuchPoint {
+        /// The first such index.
+        index: usize,
+        /// The cloud's points.
+        points: usize,
+    },
     /// The reference axis has no direction.
     #[error("the mean of the peduncle's points is the fruit center: they give no axis")]
     AtCenter,
+    /// There are too few points to fit a direction to.
+    #[error(
+        "the peduncle has {points} points, and its own direction is fitted to {} or more",
+        Peduncle::LEAST_FOR_DIRECTION
+    )]
+    TooFewForDirection {
+        /// The peduncle's points.
+        points: usize,
+    },
+    /// The points are spread about as far across as along.
+    #[error(
+        "the peduncle's points have no direction of their own: they are spread only {elongation:.2} times as far along as \
+         across"
+    )]
+    NoDirection {
+        /// The standard deviation along the direction of greatest spread, in those across it.
+        elongation: f64,
+    },
 }
 
 /// A fruit's peduncle: where its points are, and which of the cloud's points belong to it.
@@ -93,32 +100,13 @@ pub struct Peduncle {
     pub source: PeduncleSource,
     /// The mean of its points, in the cloud's unit and frame.
     pub mean: DVec3,
+    /// How they are spread about it.
+    pub spread: Spread,
     /// How many points it has.
     pub points: usize,
     /// The indices of the cloud's points that belong to it, ascending. Empty where the peduncle has a
     /// file of its own and the cloud is the body alone.
     pub in_cloud: Vec<usize>,
-}
-
-/// Colors grayer than this share of their brightest channel have no hue to speak of.
-const LEAST_SATURATION: f64 = 0.15;
-
-/// The hue of a color (red, green, blue, alpha) in degrees, 0 to 360; `None` for grays.
-pub fn hue_deg(color: [u8; 4]) -> Option<f64> {
-    let [r, g, b] = [color[0], color[1], color[2]].map(f64::from);
-    let (max, min) = (r.max(g).max(b), r.min(g).min(b));
-    let chroma = max - min;
-    if max <= 0.0 || chroma / max < LEAST_SATURATION {
-        return None;
-    }
-    let sixth = if max == r {
-        (g - b) / chroma
-    } else if max == g {
-        (b - r) / chroma + 2.0
-    } else {
-        (r - g) / chroma + 4.0
-    };
-    Some((60.0 * sixth).rem_euclid(360.0))
 }
 
 impl Peduncle {
@@ -151,13 +139,15 @@ impl Peduncle {
     pub fn by_companion(cloud: &Cloud, companion: &Cloud) -> Result<Self, PeduncleError> {
         let points = companion.positions();
         let index = Neighbors::new(points).ok_or(PeduncleError::EmptyCompanion)?;
+        let spread = Spread::of_points(points).ok_or(PeduncleError::EmptyCompanion)?;
         let size = Extent::robust(cloud.positions()).map_or(0.0, |e| e.size().length());
         let near = (1e-4 * size).powi(2);
         let coincides = |p: &DVec3| index.nearest(*p).distance_squared <= near;
         let belongs = cloud.positions().iter().enumerate();
         Ok(Self {
             source: PeduncleSource::Companion,
-            mean: points.iter().sum::<DVec3>() / points.len() as f64,
+            mean: spread.mean,
+            spread,
             points: points.len(),
             in_cloud: belongs.filter(|(_, p)| coincides(p)).map(|(i, _)| i).collect(),
         })
@@ -193,12 +183,33 @@ impl Peduncle {
         Ok(removed)
     }
 
+    /// The points that somebody picked. `None` where these are none: then there is no peduncle.
+    ///
+    /// # Errors
+    /// Where one of them is not the cloud's.
+    pub fn by_points(cloud: &Cloud, picked: &PointSet) -> Result<Option<Self>, PeduncleError> {
+        if let Some(index) = picked.iter().find(|&i| i >= cloud.len()) {
+            let points = cloud.len();
+            return Err(PeduncleError::NoSuchPoint { index, points });
+        }
+        Ok(Self::of_indices(
+            cloud,
+            PeduncleSource::Picked,
+            picked.iter().collect(),
+        ))
+    }
+
     fn of_points(cloud: &Cloud, source: PeduncleSource, is_peduncle: impl Fn(usize) -> bool) -> Option<Self> {
         let in_cloud: Vec<usize> = (0..cloud.len()).filter(|&i| is_peduncle(i)).collect();
-        let sum: DVec3 = in_cloud.iter().map(|&i| cloud.positions()[i]).sum();
-        (!in_cloud.is_empty()).then(|| Self {
+        Self::of_indices(cloud, source, in_cloud)
+    }
+
+    fn of_indices(cloud: &Cloud, source: PeduncleSource, in_cloud: Vec<usize>) -> Option<Self> {
+        let spread = Spread::of(in_cloud.iter().map(|&i| (cloud.positions()[i], 1.0)))?;
+        Some(Self {
             source,
-            mean: sum / in_cloud.len() as f64,
+            mean: spread.mean,
+            spread,
             points: in_cloud.len(),
             in_cloud,
         })
@@ -228,43 +239,52 @@ impl Peduncle {
             confidence: None,
         })
     }
+
+    /// The fewest points that a direction is fitted to: of fewer it is their noise's.
+    pub const LEAST_FOR_DIRECTION: usize = 10;
+
+    /// How far the points must be spread along their direction, in multiples of their spread across it.
+    /// A tube that is as long as it is wide has none, and the half of a stump that a camera sees is spread
+    /// up to about twice as far across as it is deep.
+    pub const LEAST_ELONGATION: f64 = 2.0;
+
+    /// The standard deviation of the points along the direction of their greatest spread, in multiples
+    /// of the greatest one across it; infinite for points on a line, 1 for a single point.
+    pub fn elongation(&self) -> f64 {
+        let [_, across, along] = self.spread.variances;
+        if along > 0.0 { (along / across).sqrt() } else { 1.0 }
+    }
+
+    /// A second reference, the peduncle's own direction: the line through the mean of its points along
+    /// which they are spread most, pointed away from the fruit center. It does not depend on the center
+    /// otherwise, so it tells apart a method that failed from a center that is off.
+    ///
+    /// # Errors
+    /// Where there are fewer than [`Peduncle::LEAST_FOR_DIRECTION`] points, or they are spread less than
+    /// [`Peduncle::LEAST_ELONGATION`] times as far along as across.
+    pub fn direction_axis(&self, center: DVec3) -> Result<AxisEstimate, PeduncleError> {
+        if self.points < Self::LEAST_FOR_DIRECTION {
+            let points = self.points;
+            return Err(PeduncleError::TooFewForDirection { points });
+        }
+        let elongation = self.elongation();
+        if elongation < Self::LEAST_ELONGATION {
+            return Err(PeduncleError::NoDirection { elongation });
+        }
+        let along = self.spread.axes[2];
+        let outward = (self.mean - center).dot(along);
+        Ok(AxisEstimate {
+            source: AxisSource::PeduncleDirection,
+            origin: self.mean,
+            direction: if outward < 0.0 { -along } else { along },
+            confidence: None,
+        })
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn hues_are_those_of_the_color_wheel() {
-        let cases = [
-            ([255, 0, 0, 255], 0.0),
-            ([255, 255, 0, 255], 60.0),
-            ([0, 200, 0, 255], 120.0),
-            ([0, 0, 9, 255], 240.0),
-        ];
-        for (color, hue) in cases {
-            assert_eq!(hue_deg(color), Some(hue));
-        }
-        assert_eq!(hue_deg([255, 0, 128, 0]).map(f64::round), Some(330.0));
-        assert_eq!(hue_deg([128, 128, 128, 255]), None);
-        assert_eq!(hue_deg([0, 0, 0, 255]), None);
-        assert_eq!(hue_deg([100, 95, 97, 255]), None, "nearly gray");
-    }
-
-    #[test]
-    fn a_range_may_run_through_red() {
-        let red = HueRange {
-            from_deg: 350.0,
-            to_deg: 20.0,
-        };
-        assert!([350.0, 359.0, 0.0, 20.0].into_iter().all(|hue| red.contains(hue)));
-        assert!([21.0, 180.0, 349.0].into_iter().all(|hue| !red.contains(hue)));
-        let green = HueRange {
-            from_deg: 90.0,
-            to_deg: 150.0,
-        };
-        assert!(green.contains(120.0) && !green.contains(0.0) && !green.contains(151.0));
-    }
 
     #[test]
     fn the_reference_runs_from_the_center_through_the_peduncle_s_mean() {

@@ -4,7 +4,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::layout::Pane;
-use crate::app::{Command, PlaneChoice, Sample, State, Tool};
+use crate::app::{Command, PeduncleCommand, PlaneChoice, Sample, State, Tool};
 use crate::method::Preset;
 use crate::render::Projection;
 use crate::view::{Coloring, Overlay, Theme, ViewPreset};
@@ -122,7 +122,7 @@ impl Action {
         }
     }
 
-    fn app(group: Group, title: impl Into<String>, command: Command) -> Self {
+    pub(super) fn app(group: Group, title: impl Into<String>, command: Command) -> Self {
         Self::new(group, title, Act::App(command))
     }
 
@@ -130,22 +130,22 @@ impl Action {
         Self::new(group, title, Act::Window(act))
     }
 
-    fn key(mut self, modifiers: Modifiers, key: Key) -> Self {
+    pub(super) fn key(mut self, modifiers: Modifiers, key: Key) -> Self {
         self.keys.push(KeyboardShortcut::new(modifiers, key));
         self
     }
 
-    fn when(mut self, is_enabled: bool) -> Self {
+    pub(super) fn when(mut self, is_enabled: bool) -> Self {
         self.is_enabled = is_enabled;
         self
     }
 
-    fn on(mut self, is_on: bool) -> Self {
+    pub(super) fn on(mut self, is_on: bool) -> Self {
         self.is_on = Some(is_on);
         self
     }
 
-    fn repeating(mut self) -> Self {
+    pub(super) fn repeating(mut self) -> Self {
         self.repeats = true;
         self
     }
@@ -182,6 +182,7 @@ const ALT: Modifiers = Modifiers::ALT;
 pub fn actions(state: &State) -> Vec<Action> {
     let mut all = file_actions(state);
     all.extend(edit_actions(state));
+    all.extend(super::peduncle::keys::actions(state));
     all.extend(plane_actions(state));
     all.extend(view_actions(state));
     all.extend(style_actions(state));
@@ -236,10 +237,20 @@ fn edit_actions(state: &State) -> Vec<Action> {
     use Group::Edit;
     let preset = state.settings.request.params.preset();
     let is_moving = state.tool == Tool::MoveCenter;
-    let escape = if state.progress.is_some() {
+    let is_drawing = state.peduncle.strokes.back().is_some_and(|s| !s.is_ended);
+    let escape = if state.peduncle.question.is_some() {
+        let dismiss = Command::Peduncle(PeduncleCommand::Dismiss);
+        Action::app(Edit, "Drop the question", dismiss)
+    } else if is_drawing {
+        let drop = Command::Peduncle(PeduncleCommand::DropStroke);
+        Action::app(Edit, "Drop this stroke", drop)
+    } else if state.progress.is_some() {
         Action::app(Edit, "Call the analysis off", Command::Cancel)
     } else if is_moving {
         Action::app(Edit, "Stop moving the center", Command::Use(Tool::Navigate))
+    } else if state.is_picking() {
+        let navigate = Command::Use(Tool::Navigate);
+        Action::app(Edit, "Stop picking the peduncle", navigate)
     } else if state.brush_cm.is_some() {
         Action::app(Edit, "Clear the brush", Command::Brush(None))
     } else {
@@ -403,16 +414,15 @@ fn style_actions(state: &State) -> Vec<Action> {
         new.point_size = Some(size.clamp(1.0, 24.0));
         Command::Style(Box::new(new))
     };
-    actions.push(
-        Action::app(Group::Overlay, "Larger points", sized(size * 1.25))
-            .key(NONE, Key::CloseBracket)
-            .repeating(),
-    );
-    actions.push(
-        Action::app(Group::Overlay, "Smaller points", sized(size / 1.25))
-            .key(NONE, Key::OpenBracket)
-            .repeating(),
-    );
+    for (title, key, factor) in [
+        ("Larger points", Key::CloseBracket, 1.25),
+        ("Smaller points", Key::OpenBracket, 1.0 / 1.25),
+    ] {
+        let action = Action::app(Group::Overlay, title, sized(size * factor)).repeating();
+        // With the brush in hand these keys are its own.
+        let is_brush = state.tool == Tool::Brush;
+        actions.push(if is_brush { action } else { action.key(NONE, key) });
+    }
     actions
 }
 
@@ -439,6 +449,7 @@ pub fn overlay_title(overlay: Overlay) -> (&'static str, Option<Key>) {
         Overlay::Viewpoint => ("Viewpoint and its ray", Some(Key::V)),
         Overlay::Axis => ("Computed axis", Some(Key::A)),
         Overlay::Reference => ("Reference axis", Some(Key::R)),
+        Overlay::References => ("All reference axes", None),
         Overlay::Ghost => ("Mirrored cloud", Some(Key::G)),
         Overlay::Partners => ("Lines to partners", Some(Key::L)),
         Overlay::Normals => ("Normals of points", Some(Key::M)),

@@ -4,6 +4,9 @@ use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
+use crate::app::PeduncleCommand;
+use crate::app::peduncle::PedunclePath;
+use crate::io::PeduncleChoice;
 use rfd::{AsyncFileDialog, FileHandle};
 
 /// What somebody answered.
@@ -12,6 +15,8 @@ pub(super) enum Asked {
     Open(Vec<PathBuf>),
     /// The view is to be saved here, with so many pixels.
     SaveImage(PathBuf, [u32; 2]),
+    /// Something is to be done about the peduncle.
+    Peduncle(PeduncleCommand),
     /// No dialog could be shown.
     Failed(String),
 }
@@ -45,6 +50,36 @@ pub(super) fn save_image(ctx: &egui::Context, answers: &Sender<Asked>, name: &st
     wait(ctx, answers, async move {
         Some(Asked::SaveImage(path_of(&answer.await?), size_px))
     });
+}
+
+/// Asks for the peduncle's file, for the folder of clouds without it, or where to save it under `name`.
+pub(super) fn peduncle_path(ctx: &egui::Context, answers: &Sender<Asked>, wanted: PedunclePath, name: &str) {
+    let dialog = AsyncFileDialog::new();
+    let clouds = |dialog: AsyncFileDialog| dialog.add_filter("Point clouds (PLY)", &["ply", "PLY"]);
+    let choose = |choice| Asked::Peduncle(PeduncleCommand::Choose(choice));
+    match wanted {
+        PedunclePath::File => {
+            let answer = clouds(dialog.set_title("The peduncle's points")).pick_file();
+            wait(ctx, answers, async move {
+                Some(choose(PeduncleChoice::File(path_of(&answer.await?))))
+            });
+        }
+        PedunclePath::Removed => {
+            let title = "The folder of the clouds without their peduncles";
+            let answer = dialog.set_title(title).pick_folder();
+            wait(ctx, answers, async move {
+                Some(choose(PeduncleChoice::Removed(path_of(&answer.await?))))
+            });
+        }
+        PedunclePath::SaveAs => {
+            let dialog = clouds(dialog.set_title("Save the peduncle"));
+            let answer = dialog.set_file_name(name).save_file();
+            wait(ctx, answers, async move {
+                let path = path_of(&answer.await?);
+                Some(Asked::Peduncle(PeduncleCommand::SaveAs(path)))
+            });
+        }
+    }
 }
 
 /// What is said where the desktop has no dialogs; that is not told apart from a refusal otherwise.

@@ -19,6 +19,7 @@ mod paint;
 mod palette;
 mod panes;
 pub mod parameters;
+mod peduncle;
 mod plane_tip;
 mod planes;
 pub mod point;

@@ -6,8 +6,10 @@ use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse
 use super::actions::{Act, Action, WindowAct};
 use super::files::{self, FilesAnswer};
 use super::layout::Pane;
-use super::{contributions, hemisphere, parameters, point, ranking, score_map, scrub, view_bar, view3d};
-use crate::app::{Command, State};
+use super::{
+    contributions, hemisphere, parameters, peduncle, point, ranking, score_map, scrub, view_bar, view3d,
+};
+use crate::app::{Command, PeduncleCommand, State};
 use crate::render::Viewport;
 
 /// What the panels are given, and what they say.
@@ -51,6 +53,10 @@ impl Behavior<Pane> for Panes<'_> {
         if action == EditAction::TabSelected && self.state.previewed.is_some() {
             self.commands.push(Command::Preview(None));
         }
+        if action == EditAction::TabSelected && self.state.peduncle.is_previewed {
+            let preview = PeduncleCommand::Preview(false);
+            self.commands.push(Command::Peduncle(preview));
+        }
         *self.was_moved |= matches!(action, EditAction::TileResized | EditAction::TileDropped);
     }
 
@@ -67,6 +73,7 @@ impl Panes<'_> {
     fn view(&mut self, ui: &mut egui::Ui) {
         Frame::new().inner_margin(Margin::symmetric(8, 4)).show(ui, |ui| {
             view_bar::show(ui, self.state, self.actions, self.acts);
+            peduncle::bar(ui, self.state, self.actions, self.acts);
         });
         Panel::bottom("scrub").show_separator_line(false).show(ui, |ui| {
             scrub::show(ui, self.state, self.commands);

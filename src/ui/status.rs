@@ -100,6 +100,7 @@ pub fn reference_name(source: &str) -> &str {
     match source {
         "simulation" => "simulated",
         "peduncle" => "peduncle's",
+        "peduncle-direction" => "peduncle's own",
         other => other,
     }
 }

@@ -6,13 +6,14 @@ use egui::{
 use glam::DVec2;
 
 use super::paint::ViewCallback;
+use super::peduncle;
 use crate::app::why::{why, why_lines};
 use crate::app::{Command, State, Tool, Written, dragged};
 use crate::render::{Line, Viewport};
 use crate::view::{Anchor, Annotation, annotate};
 
 /// Radians a logical pixel of dragging.
-const ORBIT_RAD_PER_PX: f64 = 0.008;
+pub(super) const ORBIT_RAD_PER_PX: f64 = 0.008;
 
 /// What the view tells the window.
 pub(super) struct ViewAnswer {
@@ -36,7 +37,11 @@ pub(super) fn show(
         empty(ui, rect, state);
         return answer;
     };
-    navigate(ui, &response, rect, state, viewport, commands);
+    if state.is_picking() {
+        peduncle::drag(ui, &response, rect, state, viewport, commands);
+    } else {
+        navigate(ui, &response, rect, state, viewport, commands);
+    }
 
     let pixels_per_point = ui.ctx().pixels_per_point();
     if is_gpu {
@@ -46,7 +51,7 @@ pub(super) fn show(
             rect,
             ViewCallback {
                 view: response.id,
-                scene: look.scene.clone(),
+                scene: state.drawn_scene().unwrap_or_else(|| look.scene.clone()),
                 lines: cursor_lines(state, pixels_per_point),
                 camera: state.camera,
                 size_px,
@@ -69,6 +74,7 @@ pub(super) fn show(
         paint(&painter, rect, &annotation);
     }
     notices(ui, rect, state);
+    peduncle::paint(ui, &response, rect, state);
     answer
 }
 

@@ -127,11 +127,13 @@ fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
     }
     let choice_of = |source: &AxisSource| match source {
         AxisSource::Simulation => TruthChoice::Truth,
+        AxisSource::PeduncleDirection => TruthChoice::PeduncleDirection,
         AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated => TruthChoice::Manual,
         _ => TruthChoice::Peduncle,
     };
     let name = |source: &AxisSource| match source {
         AxisSource::Simulation => "Simulated axis",
+        AxisSource::PeduncleDirection => "Peduncle's direction",
         AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated => "Axis by hand",
         _ => "Peduncle's axis",
     };

@@ -16,9 +16,10 @@ use super::palette::{Answer, Palette};
 use super::panes::Panes;
 use super::save_image::{self, SaveImage};
 use super::scrub::walks_by_rank;
-use super::{help, menu, status, theme};
+use super::{help, menu, peduncle, status, theme};
 use crate::app::worker::Repaint;
-use crate::app::{App, Command, Session, command_line, quoted};
+use crate::app::{App, Command, PeduncleCommand, Session, command_line, quoted};
+use crate::io::companion_path;
 
 /// How the window begins.
 pub struct Start {
@@ -196,12 +197,13 @@ impl Window {
             self.app
                 .set_view(viewport, ctx.pixels_per_point(), self.is_software);
         }
+        peduncle::question(&ctx, self.app.state(), &mut commands);
         for command in commands {
-            self.app.apply(command);
+            self.carry_out(&ctx, command);
         }
         for act in acts {
             match act {
-                Act::App(command) => self.app.apply(command),
+                Act::App(command) => self.carry_out(&ctx, command),
                 Act::Window(act) => self.act(&ctx, act),
             }
         }
@@ -224,13 +226,22 @@ impl Window {
             let files = i.raw.dropped_files.iter();
             files.map(|file| file.path().to_owned()).collect()
         });
-        if !dropped.is_empty() {
-            acts.push(Act::App(Command::Open(dropped)));
+        if let [path] = &dropped[..]
+            && is_companion(path)
+        {
+            let offer = PeduncleCommand::Offer(path.clone());
+            acts.push(Act::App(Command::Peduncle(offer)));
+        } else if !dropped.is_empty() {
+            // A companion comes along with its cloud.
+            let has_cloud = |path: &PathBuf| dropped.iter().any(|cloud| companion_path(cloud) == *path);
+            let clouds = dropped.iter().filter(|path| !has_cloud(path));
+            acts.push(Act::App(Command::Open(clouds.cloned().collect())));
         }
         while let Ok(answer) = self.answers.1.try_recv() {
             acts.push(Act::App(match answer {
                 Asked::Open(paths) => Command::Open(paths),
                 Asked::SaveImage(path, size_px) => Command::SaveImage { path, size_px },
+                Asked::Peduncle(command) => Command::Peduncle(command),
                 Asked::Failed(text) => Command::Say { is_error: true, text },
             }));
         }
@@ -284,6 +295,18 @@ impl Window {
         }
     }
 
+    /// Hands a command to the program, but for what only the window can do.
+    fn carry_out(&mut self, ctx: &egui::Context, command: Command) {
+        if let Command::Peduncle(PeduncleCommand::Ask(wanted)) = command {
+            let path = self.app.state().source().map(|s| companion_path(s.path()));
+            let name = path.and_then(|p| p.file_name().map(|n| n.to_string_lossy().into_owned()));
+            let name = name.as_deref().unwrap_or("peduncle.ply");
+            dialogs::peduncle_path(ctx, &self.answers.0, wanted, name);
+        } else {
+            self.app.apply(command);
+        }
+    }
+
     fn act(&mut self, ctx: &egui::Context, act: WindowAct) {
         let answers = self.answers.0.clone();
         match act {
@@ -300,9 +323,13 @@ impl Window {
                 let mut words = vec!["axiscope".to_owned()];
                 words.extend(command_line(state, "view.png", view_size(state)));
                 ctx.copy_text(quoted(&words));
+                let mut text = "Copied the command line that draws this view.".to_owned();
+                if self.app.state().has_unsaved_peduncle() {
+                    text += " The peduncle that was picked is not in it: no file has it yet. Save it first.";
+                }
                 self.app.apply(Command::Say {
                     is_error: false,
-                    text: "Copied the command line that draws this view.".into(),
+                    text,
                 });
             }
             WindowAct::Help => self.is_help_open = true,
@@ -345,6 +372,12 @@ impl Window {
         }
         self.kept = Some(session);
     }
+}
+
+/// Whether a file has a companion's name: `NAME_peduncle.ply`.
+fn is_companion(path: &std::path::Path) -> bool {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    stem.ends_with("_peduncle")
 }
 
 /// The view's size in physical pixels.

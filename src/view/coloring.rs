@@ -332,6 +332,11 @@ const MOST_LABELS: usize = 7;
 
 fn by_label(shown: &ShownPoints) -> Result<Colored, ColoringError> {
     let labels = shown.labels.as_ref().ok_or(ColoringError::NoLabels)?;
+    Ok(color_labels(labels))
+}
+
+/// Colors points by labels, one a point.
+pub fn color_labels(labels: &[i32]) -> Colored {
     let mut counts: BTreeMap<i32, usize> = BTreeMap::new();
     for &label in labels {
         *counts.entry(label).or_default() += 1;
@@ -362,7 +367,7 @@ fn by_label(shown: &ShownPoints) -> Result<Colored, ColoringError> {
     if others > 0 {
         swatches.push(Swatch::counted(NEUTRAL, "other labels", others, labels.len()));
     }
-    Ok(Colored {
+    Colored {
         colors: labels
             .iter()
             .map(|label| color_of.get(label).copied().unwrap_or(NEUTRAL))
@@ -372,5 +377,5 @@ fn by_label(shown: &ShownPoints) -> Result<Colored, ColoringError> {
             swatches,
             ..Legend::default()
         },
-    })
+    }
 }

@@ -11,17 +11,20 @@ mod palette;
 mod pick;
 mod preset;
 mod scene;
+mod select;
 mod shown;
 
 pub use annotation::{Anchor, Annotation, Theme};
-pub use coloring::{Colored, Coloring, ColoringError, Subject, color_bare, color_points};
+pub use coloring::{Colored, Coloring, ColoringError, Subject, color_bare, color_labels, color_points};
 pub use layout::{Page, annotate, insets};
 pub use legend::{Legend, Ramp, Swatch};
 pub use overlays::{Overlay, Overlays};
-pub use palette::{NEUTRAL, VALUE_STOPS, value_color};
+pub use palette::{NEUTRAL, PEDUNCLE_MARK, VALUE_STOPS, faded, value_color};
 pub use pick::pick_point;
 pub use preset::ViewPreset;
 pub use scene::{
     AXIS_COLOR, SceneSettings, build_bare_scene, build_scene, framed_cloud, framed_points, line_scale,
+    reference_color,
 };
+pub use select::{Brush, Lasso, Region, Screen};
 pub use shown::ShownPoints;

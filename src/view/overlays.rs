@@ -19,6 +19,8 @@ pub enum Overlay {
     Axis,
     /// The reference axis.
     Reference,
+    /// All references, where there are several.
+    References,
     /// The cloud mirrored in the plane.
     Ghost,
     /// Lines from a sample of points to their partners.
@@ -37,13 +39,14 @@ pub enum Overlay {
 
 impl Overlay {
     /// All of them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Plane,
         Self::Normal,
         Self::Center,
         Self::Viewpoint,
         Self::Axis,
         Self::Reference,
+        Self::References,
         Self::Ghost,
         Self::Partners,
         Self::Normals,
@@ -62,6 +65,7 @@ impl Overlay {
             Self::Viewpoint => "viewpoint",
             Self::Axis => "axis",
             Self::Reference => "reference",
+            Self::References => "references",
             Self::Ghost => "ghost",
             Self::Partners => "partners",
             Self::Normals => "normals",

@@ -13,6 +13,17 @@ pub(super) const SKY: Color = [0x56, 0xb4, 0xe9, 255];
 /// The color of a point that takes no part.
 pub const NEUTRAL: Color = [0x80, 0x80, 0x86, 255];
 
+/// What the peduncle's points are drawn in while they are picked: nothing else is.
+pub const PEDUNCLE_MARK: Color = [0xff, 0x4a, 0xbe, 255];
+
+/// A color that steps back beside [`PEDUNCLE_MARK`].
+pub fn faded(color: Color, is_dark: bool) -> Color {
+    let quiet: u16 = if is_dark { 0x5c } else { 0xb8 };
+    // Two fifths of the color stay, so that shape and fruit are still seen.
+    let mixed = |c: u8| ((2 * u16::from(c) + 3 * quiet) / 5) as u8;
+    [mixed(color[0]), mixed(color[1]), mixed(color[2]), color[3]]
+}
+
 /// What a point that takes part but has no value is drawn in: lighter than [`NEUTRAL`].
 pub(super) const VALUELESS: Color = [0xb4, 0xb4, 0xba, 255];
 

@@ -7,10 +7,10 @@ use glam::DVec3;
 use super::annotation::Theme;
 use super::coloring::{Colored, Subject};
 use super::overlays::{Overlay, Overlays};
-use super::palette::{PINK, SKY};
+use super::palette::{ORANGE, PINK, SKY};
 use super::shown::ShownPoints;
 use crate::geometry::{Extent, Plane};
-use crate::method::AxisEstimate;
+use crate::method::{AxisEstimate, AxisSource};
 use crate::render::{Color, EyeDome, Line, Points, Polygon, Scene};
 
 /// How an analysis is drawn.
@@ -30,10 +30,22 @@ pub struct SceneSettings<'a> {
     pub axis: Option<&'a AxisEstimate>,
     /// The axis that it is compared with.
     pub reference: Option<&'a AxisEstimate>,
+    /// All axes that there are to compare with.
+    pub references: &'a [AxisEstimate],
 }
 
 /// The computed axis is green, as in the paper's figures.
 pub const AXIS_COLOR: Color = [0x2f, 0xd0, 0x68, 255];
+/// What a further reference is drawn in, so that several can be told apart.
+pub fn reference_color(source: &AxisSource) -> Color {
+    match source {
+        AxisSource::Peduncle => [0xf0, 0xe4, 0x42, 255],
+        AxisSource::PeduncleDirection => ORANGE,
+        AxisSource::Simulation => SKY,
+        _ => PINK,
+    }
+}
+
 const WHITE: Color = [255; 4];
 const PLANE: Color = [0x8f, 0xb8, 0xde, 255];
 /// Samples that can still be told apart.
@@ -67,6 +79,17 @@ pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSett
     }
     add_center_and_viewpoint(&mut scene, subject, settings);
     let outline = [0x10, 0x12, 0x14, 255];
+    let drawn = settings.reference.filter(|_| has(Overlay::Reference));
+    let others = settings.references.iter().filter(|&other| Some(other) != drawn);
+    for other in others.filter(|_| has(Overlay::References)) {
+        let [from, to] = axis_ends(other, size);
+        scene.lines.push(
+            Line::new(from, to, reference_color(&other.source), 2.2)
+                .outlined(outline, 1.0)
+                .dashed()
+                .shining_through(0.7),
+        );
+    }
     for (estimate, overlay, color) in [
         (settings.reference, Overlay::Reference, WHITE),
         (settings.axis, Overlay::Axis, AXIS_COLOR),
@@ -156,9 +179,14 @@ pub(super) fn axis_ends(axis: &AxisEstimate, size: f64) -> [DVec3; 2] {
     } else {
         axis.direction
     };
+    let (below, above) = match axis.source {
+        // It starts in the peduncle, and is drawn through the fruit as well.
+        AxisSource::PeduncleDirection => (0.95, 0.3),
+        _ => (0.5, 0.62),
+    };
     [
-        axis.origin - 0.5 * size * upward,
-        axis.origin + 0.62 * size * upward,
+        axis.origin - below * size * upward,
+        axis.origin + above * size * upward,
     ]
 }
 

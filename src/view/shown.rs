@@ -20,6 +20,8 @@ pub struct ShownPoints {
     pub labels: Option<Vec<i32>>,
     /// For each point its index in the analysis' surface; `None` where it was not used.
     pub in_surface: Vec<Option<usize>>,
+    /// For each point the file's point that it stands for; `None` where each is the file's own.
+    pub in_file: Option<Vec<usize>>,
     /// What the bulk of the points spans.
     pub extent: Extent,
     /// Positions less the extent's center, as the renderer wants them.
@@ -39,12 +41,14 @@ impl ShownPoints {
                 .iter()
                 .map(|&p| nearest.as_ref().map_or(0, |n| n.nearest(p).index))
                 .collect();
-            return Self::of(
+            let mut shown = Self::of(
                 surface.to_vec(),
                 cloud.colors().map(|c| source.iter().map(|&i| c[i]).collect()),
                 cloud.labels().map(|l| source.iter().map(|&i| l[i]).collect()),
                 (0..surface.len()).map(Some).collect(),
             );
+            shown.in_file = Some(source);
+            return shown;
         }
         if let Some(edge) = analysis.sample_edge {
             return Self::of_cloud(cloud, nearest_in(&analysis.surface, cloud.positions(), edge));
@@ -95,6 +99,7 @@ impl ShownPoints {
             colors,
             labels,
             in_surface,
+            in_file: None,
             extent,
         }
     }

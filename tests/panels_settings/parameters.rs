@@ -43,7 +43,7 @@ fn every_section_opens_in_a_narrow_column() {
         request: Box::new(request),
         gesture: None,
     });
-    let mut harness = harness(bench, [260.0, 960.0], 2.0, egui::Theme::Dark);
+    let mut harness = harness(bench, [260.0, 1240.0], 2.0, egui::Theme::Dark);
     for section in ["Unit, normals, viewpoint", "Filters", "Peduncle"] {
         click(&mut harness, section);
     }

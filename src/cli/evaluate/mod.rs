@@ -1,5 +1,6 @@
 //! `axiscope evaluate`: a folder of clouds, each compared with its reference.
 
+mod both;
 mod figures;
 mod html;
 #[cfg(feature = "window")]
@@ -21,7 +22,7 @@ use super::progress::CountingBar;
 use store::{Store, Stored};
 use sweep::SweepOption;
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(super) struct Evaluate {
     /// The folder with the clouds (PLY)
     folder: PathBuf,
@@ -31,6 +32,9 @@ pub(super) struct Evaluate {
     /// The folder for results.csv, results.parquet, summary.json, report.html and the figures
     #[arg(short, long, value_name = "DIR", default_value = "evaluation")]
     out: PathBuf,
+    /// Evaluate with and without the peduncle, the paper's two experiments, into two folders in DIR
+    #[arg(long, conflicts_with = "without_peduncle")]
+    both: bool,
     /// Also map the mean error over settings: u=FROM..TO[:STEP] and tau=FROM..TO[:STEP], either or both
     #[arg(long, value_name = "RANGE", num_args = 1..=2)]
     sweep: Vec<SweepOption>,
@@ -54,6 +58,8 @@ enum TruthOption {
     Auto,
     /// The axis from the fruit center through the peduncle (§ 3.2)
     Peduncle,
+    /// The peduncle's own direction, in which its points are spread most
+    PeduncleDirection,
     /// The axis set by hand: the adjudicated one, else the mean of the annotators'
     Manual,
     /// The axis in NAME.truth.json
@@ -83,6 +89,9 @@ impl FromStr for Shard {
 }
 
 pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
+    if args.both {
+        return both::run(args);
+    }
     let sweep = SweepOption::settings(&args.sweep, args.analysis.u, args.analysis.tau)?;
     let mut clouds = clouds_in(&args.folder)?;
     if let Some(Shard { index, of }) = args.shard {
@@ -93,6 +102,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     let choice = match args.truth {
         TruthOption::Auto => TruthChoice::Auto,
         TruthOption::Peduncle => TruthChoice::Peduncle,
+        TruthOption::PeduncleDirection => TruthChoice::PeduncleDirection,
         TruthOption::Manual => TruthChoice::Manual,
         TruthOption::Truth => TruthChoice::Truth,
     };

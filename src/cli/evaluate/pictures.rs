@@ -59,6 +59,7 @@ fn picture(path: &Path, row: &Row, request: &Request, gpu: &Gpu) -> anyhow::Resu
     let reference = match row.truth.as_deref() {
         Some("simulation") => "truth",
         Some("peduncle") | None => "peduncle",
+        Some("peduncle-direction") => "peduncle-direction",
         Some(_) => "manual",
     };
     let look = LOOK.into_iter().chain(["--reference", reference]);

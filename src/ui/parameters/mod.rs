@@ -24,7 +24,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     center::show(ui, state, &mut edit, commands);
     cloud::show(ui, state, &mut edit);
     filters::show(ui, &mut edit);
-    peduncle::show(ui, state, &mut edit);
+    peduncle::show(ui, state, &mut edit, commands);
     edit.say(commands);
 }
 

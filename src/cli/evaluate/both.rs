@@ -1,0 +1,17 @@
+//! Both of the paper's experiments in one go: with the peduncle, and without it.
+
+use super::Evaluate;
+
+/// Evaluates the folder twice, into two folders.
+pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
+    for (name, without_peduncle) in [("with-peduncle", false), ("without-peduncle", true)] {
+        let mut one = args.clone();
+        one.both = false;
+        one.analysis.without_peduncle = without_peduncle;
+        one.out = args.out.join(name);
+        println!("{name}:");
+        super::run(&one)?;
+        println!();
+    }
+    Ok(())
+}

@@ -1,0 +1,152 @@
+//! Both references that a peduncle gives, how far they are apart, and both of the paper's experiments.
+
+use egui::{Color32, Grid, Label, ProgressBar, Ui};
+
+use super::super::controls::{caution, hint};
+use super::super::status::stage_name;
+use crate::app::peduncle::Errors;
+use crate::app::{Command, PeduncleCommand, State};
+use crate::evaluate::{peduncle_disagreement_deg, sentence};
+use crate::method::AxisSource;
+use crate::reference::axis_error_rad;
+use crate::view::{Overlay, reference_color};
+
+/// From this many degrees on a reference is not to be trusted blindly: about twice the published errors.
+const FAR_APART_DEG: f64 = 15.0;
+
+/// Shows both references with the axis' error against each.
+pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let Some(walked) = &state.walked else { return };
+    let Some(peduncle) = &walked.fruit.peduncle else {
+        return;
+    };
+    ui.add_space(2.0);
+    Grid::new("peduncle references")
+        .num_columns(2)
+        .spacing([8.0, 3.0])
+        .show(ui, |ui| {
+            for (source, text, tip) in [
+                (
+                    AxisSource::Peduncle,
+                    "center to its mean",
+                    "The reference of § 3.2: from the fruit center through the mean of the peduncle's points. It is \
+                     off where the center is.",
+                ),
+                (
+                    AxisSource::PeduncleDirection,
+                    "its own direction",
+                    "The line along which the peduncle's points are spread most. It does not depend on the center, \
+                     but a bent peduncle leaves the fruit's axis.",
+                ),
+            ] {
+                let reference = state.references.iter().find(|r| r.source == source);
+                // The one that errors are measured against is drawn in white.
+                let is_chosen = state.reference().is_some_and(|r| r.source == source);
+                let [r, g, b, _] = if is_chosen {
+                    [255; 4]
+                } else {
+                    reference_color(&source)
+                };
+                ui.horizontal(|ui| {
+                    let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
+                    // White stands on a light ground as well.
+                    let outline = egui::Stroke::new(1.0, ui.visuals().weak_text_color());
+                    let fill = Color32::from_rgb(r, g, b);
+                    ui.painter()
+                        .rect(rect, 2.0, fill, outline, egui::StrokeKind::Inside);
+                    ui.add(Label::new(text)).on_hover_text(tip);
+                });
+                let error = reference
+                    .zip(walked.analysis.axis.as_ref())
+                    .map(|(reference, axis)| axis_error_rad(axis, reference).to_degrees());
+                ui.label(match (reference, error) {
+                    (None, _) => "none".into(),
+                    (_, None) => "no axis".into(),
+                    (_, Some(error)) => format!("{error:.1}° off"),
+                });
+                ui.end_row();
+            }
+        });
+    let mut style = state.style.clone();
+    let mut shows_all = style.overlays.has(Overlay::References);
+    if ui
+        .checkbox(&mut shows_all, "Show all references")
+        .on_hover_text("Draw every reference axis that there is in the view, dashed, besides the one that errors are measured against")
+        .changed()
+    {
+        style.overlays.set(Overlay::References, shows_all);
+        commands.push(Command::Style(Box::new(style)));
+    }
+    match peduncle_disagreement_deg(&state.references) {
+        Some(apart) if apart >= FAR_APART_DEG => {
+            caution(
+                ui,
+                format!(
+                    "The two are {apart:.1}° apart: an error against either says as much of the reference as of the \
+                     method."
+                ),
+            );
+        }
+        Some(apart) => {
+            hint(ui, format!("The two are {apart:.1}° apart."));
+        }
+        None => {
+            if let Err(why) = peduncle.direction_axis(walked.analysis.center) {
+                hint(ui, sentence(&why.to_string()));
+            }
+        }
+    }
+}
+
+/// Shows the errors with and without the peduncle.
+pub(in crate::ui) fn beside(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let picking = &state.peduncle;
+    let has_peduncle = state
+        .walked
+        .as_ref()
+        .is_some_and(|walked| walked.fruit.peduncle.is_some());
+    let mut wants = picking.wants_beside;
+    let tip = "Analyze this cloud both ways, as the paper's two experiments do, and show both errors. Unchecking calls it off.";
+    let response = ui
+        .add_enabled(
+            has_peduncle || wants,
+            egui::Checkbox::new(&mut wants, "Compare with and without"),
+        )
+        .on_hover_text(tip);
+    if response.changed() {
+        commands.push(Command::Peduncle(PeduncleCommand::Compare(wants)));
+    }
+    if !picking.wants_beside || !has_peduncle {
+        return;
+    }
+    let Some(beside) = &picking.beside else {
+        if let Some(progress) = picking.beside_progress {
+            let stage = progress.stage.map_or("Reading", stage_name);
+            let text = format!("{stage} · {:.0} %", 100.0 * progress.share);
+            // Unchecking calls it off.
+            ui.add(ProgressBar::new(progress.share as f32).text(text));
+        }
+        return;
+    };
+    let source = state.reference().map(|reference| &reference.source);
+    let words = |errors: &Errors| match errors {
+        Err(why) => why.clone(),
+        Ok(errors) => {
+            let of = errors.iter().find(|(s, _)| Some(s) == source);
+            of.map_or("no reference".into(), |(_, error)| format!("{error:.1}° off"))
+        }
+    };
+    Grid::new("with and without")
+        .num_columns(2)
+        .spacing([8.0, 3.0])
+        .show(ui, |ui| {
+            for (text, errors) in [
+                ("with the peduncle", &beside.with),
+                ("without the peduncle", &beside.without),
+            ] {
+                ui.label(text);
+                ui.label(words(errors));
+                ui.end_row();
+            }
+        });
+}

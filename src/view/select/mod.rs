@@ -1,0 +1,30 @@
+//! Which points a lasso or a brush takes: regions of the view in pixels, and the points as they show there.
+
+mod brush;
+mod lasso;
+mod screen;
+
+use glam::DVec2;
+
+pub use brush::Brush;
+pub use lasso::Lasso;
+pub use screen::Screen;
+
+/// A part of the view, in logical pixels.
+#[derive(Debug, Clone)]
+pub enum Region {
+    /// What a closed line goes around.
+    Lasso(Lasso),
+    /// What a disc was dragged over.
+    Brush(Brush),
+}
+
+impl Region {
+    /// Whether a pixel lies in it.
+    pub fn contains(&self, pixel: DVec2) -> bool {
+        match self {
+            Self::Lasso(lasso) => lasso.contains(pixel),
+            Self::Brush(brush) => brush.contains(pixel),
+        }
+    }
+}
