@@ -55,7 +55,7 @@ fn every_number_is_the_method_s() {
         let why = why(state, shown).expect("there is such a point");
         assert_eq!(why.unit, Some(params.unit));
         let Ok(steps) = why.steps else {
-            assert_eq!(state.shown().expect("points").in_surface[shown], None);
+            assert_eq!(state.shown().expect("points").in_surface.get(shown), None);
             continue;
         };
         let expected = detail.points[steps.surface_index];
@@ -195,7 +195,7 @@ fn points_that_were_left_out_say_so() {
     let out = shown
         .in_surface
         .iter()
-        .position(Option::is_none)
+        .position(|place| place.is_none())
         .expect("the peduncle's");
     let left_out = why(state, out).expect("a point");
     assert_eq!(left_out.steps, Err(Unexplained::LeftOut));

@@ -138,16 +138,16 @@ fn every_point_of_a_sampled_cloud_is_shown_as_the_used_point_nearest_to_it() {
     let analysis = analyze(&cloud, &params, &()).unwrap();
     let edge = analysis.sample_edge.unwrap();
     let shown = ShownPoints::new(&cloud, &analysis);
-    assert_eq!(shown.positions, cloud.positions());
+    assert_eq!(*shown.positions, cloud.positions());
     let used = analysis.surface.points();
-    for (p, &found) in shown.positions.iter().zip(&shown.in_surface) {
+    for (p, found) in shown.positions.iter().zip(shown.in_surface.iter()) {
         let nearest = used.iter().map(|q| q.distance(*p)).fold(f64::INFINITY, f64::min);
         match found {
             Some(i) => assert_eq!(used[i].distance(*p), nearest),
             None => assert!(nearest > 1.73 * edge, "{nearest} {edge}"),
         }
     }
-    assert_eq!(shown.in_surface.last(), Some(&None));
+    assert_eq!(shown.in_surface.iter().last(), Some(None));
     let without = shown.in_surface.iter().filter(|i| i.is_none()).count();
     assert!(without < 50, "{without}");
 }

@@ -205,7 +205,7 @@ impl Fixture {
 #[test]
 fn colors_say_what_the_detail_says() {
     let fixture = fixture();
-    assert_eq!(fixture.shown.in_surface[5], None);
+    assert_eq!(fixture.shown.in_surface.get(5), None);
     let tau = fixture.analysis.params.tau_cm_per_rad;
     for coloring in [Coloring::Distance, Coloring::Angle, Coloring::Score] {
         let colored = color_points(fixture.subject(), coloring).expect("there is a plane");
@@ -219,11 +219,11 @@ fn colors_say_what_the_detail_says() {
         };
         let mut above = 0;
         let with = (0..fixture.detail.points.len()).filter_map(value).count();
-        for (color, place) in colored.colors.iter().zip(&fixture.shown.in_surface) {
+        for (color, place) in colored.colors.iter().zip(fixture.shown.in_surface.iter()) {
             match place {
                 None => assert_eq!(*color, NEUTRAL),
                 Some(i) => {
-                    if let Some(v) = value(*i) {
+                    if let Some(v) = value(i) {
                         assert_eq!(*color, value_color(v / high), "{coloring:?}");
                         above += usize::from(v > high);
                     }

@@ -256,11 +256,11 @@ fn gray_outside(
     shown: &ShownPoints,
     colors: &mut [Color],
 ) {
-    let is_in = |place: &Option<usize>| {
+    let is_in = |place: Option<usize>| {
         let partner = place.and_then(|i| detail.points[i].partner);
         partner.is_some_and(|p| range.contains(&p.score_cm(tau_cm_per_rad)))
     };
-    for (color, place) in colors.iter_mut().zip(&shown.in_surface) {
+    for (color, place) in colors.iter_mut().zip(shown.in_surface.iter()) {
         if !is_in(place) {
             *color = NEUTRAL;
         }

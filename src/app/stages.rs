@@ -96,6 +96,8 @@ pub struct Stages {
     file: Option<(Source, Arc<CloudFile>)>,
     fruit: Option<(FruitKey, Arc<Fruit>)>,
     used: Option<(UsedKey, Arc<UsedPoints>)>,
+    /// The points before their analysis, of which that shares what it can.
+    bare: Option<Arc<ShownPoints>>,
     shown: Option<(UsedKey, Arc<ShownPoints>)>,
     center: Option<(CenterKey, DVec3)>,
     /// The newest last.
@@ -180,18 +182,19 @@ impl Stages {
         let is_new = kept(self.fruit.as_ref(), &fruit_key).is_none();
         let fruit = self.fruit(&fruit_key, observe)?;
         if is_new && fruit.cloud().len() >= LARGE {
-            arrived(Arc::new(ShownPoints::bare(fruit.cloud())));
+            arrived(self.bare(&fruit));
         }
         if observe.is_cancelled() {
             return Err(WalkError::Cancelled);
         }
+        let bare = self.bare(&fruit);
         self.analyzed(fruit_key, &fruit, request, observe)
             .map_err(|error| {
                 if error.is_cancelled() {
                     return WalkError::Cancelled;
                 }
                 WalkError::Analysis {
-                    shown: Arc::new(ShownPoints::bare(fruit.cloud())),
+                    shown: bare,
                     fruit,
                     error,
                 }
@@ -284,7 +287,7 @@ impl Stages {
         let analysis = Arc::new(Analysis::of_stages(&params, &used, center, planes));
         let shown = match kept(self.shown.as_ref(), &used_key) {
             Some(shown) => shown,
-            None => Arc::new(ShownPoints::new(fruit.cloud(), &analysis)),
+            None => Arc::new(self.bare(fruit).analyzed(fruit.cloud(), &analysis)),
         };
         self.shown = Some((used_key, shown.clone()));
         Ok(Walked {
@@ -292,6 +295,17 @@ impl Stages {
             shown,
             analysis,
         })
+    }
+
+    fn bare(&mut self, fruit: &Fruit) -> Arc<ShownPoints> {
+        let positions = fruit.cloud().shared_positions();
+        let kept = self.bare.as_ref();
+        if let Some(bare) = kept.filter(|bare| Arc::ptr_eq(&bare.positions, &positions)) {
+            return bare.clone();
+        }
+        let bare = Arc::new(ShownPoints::bare(fruit.cloud()));
+        self.bare = Some(bare.clone());
+        bare
     }
 
     fn planes_of(&self, key: &PlanesKey) -> Option<Arc<PlaneTerms>> {

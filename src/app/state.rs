@@ -258,7 +258,7 @@ impl State {
     /// A shown point's index in the surface, and its part in the score of the plane that is drawn.
     pub fn point_detail(&self, shown_index: usize) -> Option<(usize, PointDetail)> {
         let look = self.look.as_ref()?;
-        let in_surface = (*look.shown.in_surface.get(shown_index)?)?;
+        let in_surface = look.shown.in_surface.get(shown_index)?;
         let detail = look.detail.as_ref()?;
         Some((in_surface, *detail.points.get(in_surface)?))
     }

@@ -105,7 +105,7 @@ pub fn why(state: &State, shown_index: usize) -> Option<Why> {
     };
     let (surface, params) = (&analysis.surface, &analysis.params);
     let unit = Some(params.unit);
-    let Some(surface_index) = look.shown.in_surface.get(shown_index).copied().flatten() else {
+    let Some(surface_index) = look.shown.in_surface.get(shown_index) else {
         return of(unit, Err(Unexplained::LeftOut));
     };
     let Some(detail) = &look.detail else {

@@ -1,5 +1,7 @@
 //! A point cloud: positions, and what the file said about each point.
 
+use std::sync::Arc;
+
 use glam::{DVec3, Vec3};
 
 /// A per-point column whose length is not the number of points.
@@ -17,13 +19,13 @@ pub struct LengthMismatch {
 /// Points of one fruit as one camera saw them, in the file's unit and frame.
 ///
 /// Every position is finite, and every column that is present has one row a point; the fields are
-/// private to keep it so.
+/// private to keep it so. Columns are shared between a cloud and its copies.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Cloud {
-    positions: Vec<DVec3>,
-    normals: Option<Vec<Vec3>>,
-    colors: Option<Vec<[u8; 4]>>,
-    labels: Option<Vec<i32>>,
+    positions: Arc<Vec<DVec3>>,
+    normals: Option<Arc<Vec<Vec3>>>,
+    colors: Option<Arc<Vec<[u8; 4]>>>,
+    labels: Option<Arc<Vec<i32>>>,
 }
 
 impl Cloud {
@@ -32,7 +34,7 @@ impl Cloud {
     pub fn new(mut positions: Vec<DVec3>) -> Self {
         positions.retain(|p| p.is_finite());
         Self {
-            positions,
+            positions: Arc::new(positions),
             ..Self::default()
         }
     }
@@ -43,7 +45,7 @@ impl Cloud {
     /// Where there is not one for each point.
     pub fn with_normals(mut self, normals: Vec<Vec3>) -> Result<Self, LengthMismatch> {
         self.check("normals", normals.len())?;
-        self.normals = Some(normals);
+        self.normals = Some(Arc::new(normals));
         Ok(self)
     }
 
@@ -53,7 +55,7 @@ impl Cloud {
     /// Where there is not one for each point.
     pub fn with_colors(mut self, colors: Vec<[u8; 4]>) -> Result<Self, LengthMismatch> {
         self.check("colors", colors.len())?;
-        self.colors = Some(colors);
+        self.colors = Some(Arc::new(colors));
         Ok(self)
     }
 
@@ -63,7 +65,7 @@ impl Cloud {
     /// Where there is not one for each point.
     pub fn with_labels(mut self, labels: Vec<i32>) -> Result<Self, LengthMismatch> {
         self.check("labels", labels.len())?;
-        self.labels = Some(labels);
+        self.labels = Some(Arc::new(labels));
         Ok(self)
     }
 
@@ -85,7 +87,9 @@ impl Cloud {
         debug_assert!(normals.as_ref().is_none_or(|c| c.len() == points));
         debug_assert!(colors.as_ref().is_none_or(|c| c.len() == points));
         debug_assert!(labels.as_ref().is_none_or(|c| c.len() == points));
-        (self.normals, self.colors, self.labels) = (normals, colors, labels);
+        self.normals = normals.map(Arc::new);
+        self.colors = colors.map(Arc::new);
+        self.labels = labels.map(Arc::new);
         self
     }
 
@@ -113,19 +117,34 @@ impl Cloud {
         &self.positions
     }
 
+    /// The positions, to be kept beside the cloud without a copy.
+    pub fn shared_positions(&self) -> Arc<Vec<DVec3>> {
+        self.positions.clone()
+    }
+
+    /// The colors, likewise.
+    pub fn shared_colors(&self) -> Option<Arc<Vec<[u8; 4]>>> {
+        self.colors.clone()
+    }
+
+    /// The labels, likewise.
+    pub fn shared_labels(&self) -> Option<Arc<Vec<i32>>> {
+        self.labels.clone()
+    }
+
     /// The file's normals as they stand there (any length; zero for "none"), if it has any.
     pub fn normals(&self) -> Option<&[Vec3]> {
-        self.normals.as_deref()
+        self.normals.as_deref().map(Vec::as_slice)
     }
 
     /// Red, green, blue, alpha, 0 to 255, if the file has colors.
     pub fn colors(&self) -> Option<&[[u8; 4]]> {
-        self.colors.as_deref()
+        self.colors.as_deref().map(Vec::as_slice)
     }
 
     /// Labels, if the file has any.
     pub fn labels(&self) -> Option<&[i32]> {
-        self.labels.as_deref()
+        self.labels.as_deref().map(Vec::as_slice)
     }
 
     /// The points at `indices`, in that order, with all their columns.
@@ -138,10 +157,10 @@ impl Cloud {
             indices.iter().map(|&i| column[i]).collect()
         }
         Self {
-            positions: pick(&self.positions, indices),
-            normals: self.normals().map(|c| pick(c, indices)),
-            colors: self.colors().map(|c| pick(c, indices)),
-            labels: self.labels().map(|c| pick(c, indices)),
+            positions: Arc::new(pick(&self.positions, indices)),
+            normals: self.normals().map(|c| Arc::new(pick(c, indices))),
+            colors: self.colors().map(|c| Arc::new(pick(c, indices))),
+            labels: self.labels().map(|c| Arc::new(pick(c, indices))),
         }
     }
 }

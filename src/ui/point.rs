@@ -76,7 +76,7 @@ fn heading(ui: &mut Ui, state: &State, why: &Why, is_picked: bool, commands: &mu
             // A walk over all points, on a click alone.
             let place = state.look.as_ref().and_then(|look| {
                 let wanted = Some(partner.surface_index);
-                look.shown.in_surface.iter().position(|&at| at == wanted)
+                look.shown.in_surface.iter().position(|at| at == wanted)
             });
             if place.is_some() {
                 commands.push(Command::Pick(place));

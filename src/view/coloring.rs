@@ -171,7 +171,7 @@ fn by_category(
             unused += 1;
             return NEUTRAL;
         };
-        let category = category_of(*i);
+        let category = category_of(i);
         counts[category] += 1;
         categories[category].0
     });
@@ -240,7 +240,7 @@ fn by_value(
             unused += 1;
             return NEUTRAL;
         };
-        let Some(value) = value_of(&detail.points[*i]) else {
+        let Some(value) = value_of(&detail.points[i]) else {
             without += 1;
             return VALUELESS;
         };

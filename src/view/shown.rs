@@ -9,17 +9,17 @@ use crate::geometry::{Cloud, Extent, Neighbors, map_pieces, near_one_another};
 use crate::method::{Analysis, Surface};
 use crate::render::Color;
 
-/// The points of a cloud as shown beside its analysis.
+/// The points of a cloud as shown beside its analysis. Columns are the cloud's own, not copies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShownPoints {
     /// Positions in the file's unit and frame.
-    pub positions: Vec<DVec3>,
+    pub positions: Arc<Vec<DVec3>>,
     /// The file's colors, if it has any.
-    pub colors: Option<Vec<Color>>,
+    pub colors: Option<Arc<Vec<Color>>>,
     /// The file's labels, if it has any.
-    pub labels: Option<Vec<i32>>,
-    /// For each point its index in the analysis' surface; `None` where it was not used.
-    pub in_surface: Vec<Option<usize>>,
+    pub labels: Option<Arc<Vec<i32>>>,
+    /// For each point its index in the analysis' surface.
+    pub in_surface: Places,
     /// For each point the file's point that it stands for; `None` where each is the file's own.
     pub in_file: Option<Vec<usize>>,
     /// What the bulk of the points spans.
@@ -28,12 +28,71 @@ pub struct ShownPoints {
     pub local_positions: Arc<[Vec3]>,
 }
 
+/// For each of some points its place among others, or none: four bytes a point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Places {
+    /// Empty where no point has a place.
+    of: Vec<u32>,
+    len: usize,
+}
+
+impl Places {
+    const NONE: u32 = u32::MAX;
+
+    /// No place for any of `len` points.
+    pub fn none(len: usize) -> Self {
+        Self { of: Vec::new(), len }
+    }
+
+    /// How many points there are, with a place or without.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The place of a point; `None` also where there is no such point.
+    pub fn get(&self, point: usize) -> Option<usize> {
+        let place = self.of.get(point).copied();
+        place
+            .filter(|&place| place != Self::NONE)
+            .map(|place| place as usize)
+    }
+
+    /// All points' places.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Option<usize>> {
+        (0..self.len).map(|point| self.get(point))
+    }
+}
+
+impl FromIterator<Option<usize>> for Places {
+    fn from_iter<I: IntoIterator<Item = Option<usize>>>(places: I) -> Self {
+        // More cannot be indexed, and so have no neighbors to be partners of anyway.
+        let small = |place: usize| u32::try_from(place).unwrap_or(Self::NONE);
+        let of: Vec<u32> = places
+            .into_iter()
+            .map(|place| place.map_or(Self::NONE, small))
+            .collect();
+        Self { len: of.len(), of }
+    }
+}
+
 impl ShownPoints {
     /// Every point of the file. Where a voxel grid has replaced them by others, these are shown, each
     /// with the color and label of the file's point nearest to it. Where only a sample was analyzed,
     /// all points are shown still, and each stands for the used point nearest to it, unless its cube
     /// cannot have held it.
     pub fn new(cloud: &Cloud, analysis: &Analysis) -> Self {
+        Self::bare(cloud).analyzed(cloud, analysis)
+    }
+
+    /// As [`ShownPoints::new`], of points that were shown [`ShownPoints::bare`] before: what can be is
+    /// shared with them.
+    #[must_use]
+    pub fn analyzed(&self, cloud: &Cloud, analysis: &Analysis) -> Self {
         let surface = analysis.surface.points();
         if analysis.params.filters.voxel_cm.is_some() {
             let nearest = Neighbors::new(cloud.positions());
@@ -41,52 +100,40 @@ impl ShownPoints {
                 .iter()
                 .map(|&p| nearest.as_ref().map_or(0, |n| n.nearest(p).index))
                 .collect();
-            let mut shown = Self::of(
-                surface.to_vec(),
-                cloud.colors().map(|c| source.iter().map(|&i| c[i]).collect()),
-                cloud.labels().map(|l| source.iter().map(|&i| l[i]).collect()),
-                (0..surface.len()).map(Some).collect(),
+            let shown = Self::of(
+                Arc::new(surface.to_vec()),
+                (cloud.colors()).map(|c| Arc::new(source.iter().map(|&i| c[i]).collect())),
+                (cloud.labels()).map(|l| Arc::new(source.iter().map(|&i| l[i]).collect())),
             );
-            shown.in_file = Some(source);
-            return shown;
+            return Self {
+                in_surface: (0..surface.len()).map(Some).collect(),
+                in_file: Some(source),
+                ..shown
+            };
         }
-        if let Some(edge) = analysis.sample_edge {
-            return Self::of_cloud(cloud, nearest_in(&analysis.surface, cloud.positions(), edge));
+        let in_surface = match analysis.sample_edge {
+            Some(edge) => nearest_in(&analysis.surface, cloud.positions(), edge),
+            None => same_in(surface, cloud.positions()),
+        };
+        Self {
+            in_surface,
+            ..self.clone()
         }
-        // Everything else only leaves points out: those that stayed have the very coordinates.
-        let key = |p: &DVec3| p.to_array().map(|c| (c + 0.0).to_bits());
-        let mut places: HashMap<[u64; 3], Vec<usize>> = HashMap::with_capacity(surface.len());
-        for (i, p) in surface.iter().enumerate().rev() {
-            places.entry(key(p)).or_default().push(i);
-        }
-        let in_surface = cloud
-            .positions()
-            .iter()
-            // Copies of one point take their places in the surface in turn.
-            .map(|p| places.get_mut(&key(p)).and_then(Vec::pop))
-            .collect();
-        Self::of_cloud(cloud, in_surface)
     }
 
     /// Every point of a file that was not analyzed, or could not be.
     pub fn bare(cloud: &Cloud) -> Self {
-        Self::of_cloud(cloud, vec![None; cloud.len()])
-    }
-
-    fn of_cloud(cloud: &Cloud, in_surface: Vec<Option<usize>>) -> Self {
         Self::of(
-            cloud.positions().to_vec(),
-            cloud.colors().map(<[_]>::to_vec),
-            cloud.labels().map(<[_]>::to_vec),
-            in_surface,
+            cloud.shared_positions(),
+            cloud.shared_colors(),
+            cloud.shared_labels(),
         )
     }
 
     fn of(
-        positions: Vec<DVec3>,
-        colors: Option<Vec<Color>>,
-        labels: Option<Vec<i32>>,
-        in_surface: Vec<Option<usize>>,
+        positions: Arc<Vec<DVec3>>,
+        colors: Option<Arc<Vec<Color>>>,
+        labels: Option<Arc<Vec<i32>>>,
     ) -> Self {
         let extent = Extent::robust(&positions).unwrap_or(Extent {
             min: DVec3::ZERO,
@@ -95,10 +142,10 @@ impl ShownPoints {
         let origin = extent.center();
         Self {
             local_positions: positions.iter().map(|&p| (p - origin).as_vec3()).collect(),
+            in_surface: Places::none(positions.len()),
             positions,
             colors,
             labels,
-            in_surface,
             in_file: None,
             extent,
         }
@@ -115,12 +162,26 @@ impl ShownPoints {
     }
 }
 
+/// For each point the used point of the very same coordinates: all but a voxel grid only leave points out.
+fn same_in(surface: &[DVec3], points: &[DVec3]) -> Places {
+    let key = |p: &DVec3| p.to_array().map(|c| (c + 0.0).to_bits());
+    let mut places: HashMap<[u64; 3], Vec<usize>> = HashMap::with_capacity(surface.len());
+    for (i, p) in surface.iter().enumerate().rev() {
+        places.entry(key(p)).or_default().push(i);
+    }
+    points
+        .iter()
+        // Copies of one point take their places in the surface in turn.
+        .map(|p| places.get_mut(&key(p)).and_then(Vec::pop))
+        .collect()
+}
+
 /// For each point the used point nearest to it, if one lies within a cube's diagonal.
-fn nearest_in(surface: &Surface, points: &[DVec3], edge: f64) -> Vec<Option<usize>> {
-    let mut all = vec![None; points.len()];
+fn nearest_in(surface: &Surface, points: &[DVec3], edge: f64) -> Places {
     let Some(neighbors) = surface.neighbors() else {
-        return all;
+        return Places::none(points.len());
     };
+    let mut all = vec![None; points.len()];
     let farthest_squared = 3.0 * edge * edge;
     // Close points ask for nearly the same.
     let order = near_one_another(points, 8.0 * edge);
@@ -136,7 +197,9 @@ fn nearest_in(surface: &Surface, points: &[DVec3], edge: f64) -> Vec<Option<usiz
     });
     // Nobody calls this off.
     for (&i, found) in order.iter().zip(pieces.into_iter().flatten().flatten()) {
-        all[i] = found;
+        all[i] = found.map(|index| index as u32);
     }
-    all
+    all.into_iter()
+        .map(|place| place.map(|place| place as usize))
+        .collect()
 }

@@ -47,7 +47,7 @@ fn the_partner_is_gone_to_and_the_pick_cleared() {
     click(&mut harness, "Go to partner");
     let state = harness.state().app.state();
     let now = state.picked.expect("picked");
-    assert_eq!(state.shown().expect("points").in_surface[now], Some(partner));
+    assert_eq!(state.shown().expect("points").in_surface.get(now), Some(partner));
     click(&mut harness, "Clear");
     assert_eq!(harness.state().app.state().picked, None);
     harness.remove_cursor();
