@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use super::folder::{FolderCommand, FolderState};
 use super::look::{Look, Style};
 use super::samples::Sample;
 use super::stages::{Source, Walked};
@@ -153,6 +154,8 @@ pub struct State {
     pub is_software: bool,
     /// How large the interface is; 1 as the screen asks for.
     pub interface_scale: f32,
+    /// The open clouds as a set.
+    pub folder: FolderState,
 }
 
 impl State {
@@ -187,6 +190,7 @@ impl State {
             messages: Vec::new(),
             is_software: false,
             interface_scale: 1.0,
+            folder: FolderState::new(super::folder::KeptFolder::default()),
         }
     }
 
@@ -335,6 +339,9 @@ pub enum Command {
     Use(Tool),
     /// Put the fruit center somewhere, in the file's unit and frame.
     MoveCenter(glam::DVec3),
+
+    /// Something of the set of open clouds.
+    Folder(FolderCommand),
 
     /// Make the interface larger or smaller.
     Scale(f32),

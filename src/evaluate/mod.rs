@@ -5,6 +5,7 @@
 //! resumed run, a run in shards and an unbroken run give the same bytes.
 
 mod examine;
+mod outcome;
 mod report;
 mod row;
 mod start;
@@ -13,6 +14,7 @@ mod sweep;
 mod table;
 
 pub use examine::{Examined, Request, TruthChoice, compared, examine, reference_of, sentence};
+pub use outcome::{KnownAxis, Outcome, annotations_in, clouds_in, files_behind};
 pub use report::{AnalysisReport, SCHEMA, Timings};
 pub use row::Row;
 pub use start::{StartError, start_axis};

@@ -191,18 +191,18 @@ pub fn actions(state: &State) -> Vec<Action> {
 
 fn file_actions(state: &State) -> Vec<Action> {
     use Group::File;
-    let (count, current) = (state.entries.len(), state.current);
+    let current = state.current;
     let has_look = state.look.is_some();
     let mut actions = vec![
         Action::window("Open files …", File, WindowAct::OpenFiles).key(CTRL, Key::O),
         Action::window("Open a folder …", File, WindowAct::OpenFolder).key(CTRL | SHIFT, Key::O),
         Action::app(File, "Previous cloud", Command::Go(-1))
             .key(NONE, Key::PageUp)
-            .when(current.is_some_and(|i| i > 0))
+            .when(state.neighbor(-1).is_some())
             .repeating(),
         Action::app(File, "Next cloud", Command::Go(1))
             .key(NONE, Key::PageDown)
-            .when(current.is_some_and(|i| i + 1 < count))
+            .when(state.neighbor(1).is_some())
             .repeating(),
         Action::app(File, "Read the file again", Command::Reload)
             .key(CTRL, Key::R)

@@ -370,8 +370,10 @@ impl eframe::App for Window {
             ctx.request_repaint();
         } else if state.progress.is_some() {
             ctx.request_repaint_after(Duration::from_millis(80));
-        } else if self.app.is_busy() {
+        } else if self.app.is_current_busy() {
             ctx.request_repaint_after(Duration::from_millis(5));
+        } else if self.app.is_busy() {
+            ctx.request_repaint_after(Duration::from_millis(100));
         }
         let title = match state.source() {
             Some(source) => format!("{} – Axiscope", source.name()),

@@ -154,22 +154,9 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Every cloud in the folder, by name. A companion that holds a peduncle alone is no cloud of its own.
+/// Every cloud in the folder, of which there is at least one.
 pub(super) fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
-    let entries = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
-    let mut clouds = Vec::new();
-    for entry in entries {
-        let path = entry.with_context(|| folder.display().to_string())?.path();
-        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply")) && !path.is_dir() {
-            clouds.push(path);
-        }
-    }
-    let companions: Vec<PathBuf> = clouds
-        .iter()
-        .map(|path| axiscope::io::companion_path(path))
-        .collect();
-    clouds.retain(|path| !companions.contains(path));
-    clouds.sort();
+    let clouds = axiscope::evaluate::clouds_in(folder).with_context(|| folder.display().to_string())?;
     anyhow::ensure!(
         !clouds.is_empty(),
         "{}: there are no PLY files in this folder",
