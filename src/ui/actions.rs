@@ -110,7 +110,7 @@ pub struct Action {
 }
 
 impl Action {
-    fn new(group: Group, title: impl Into<String>, act: Act) -> Self {
+    pub(super) fn new(group: Group, title: impl Into<String>, act: Act) -> Self {
         Self {
             group,
             title: title.into(),
@@ -122,20 +122,20 @@ impl Action {
         }
     }
 
-    fn app(group: Group, title: impl Into<String>, command: Command) -> Self {
+    pub(super) fn app(group: Group, title: impl Into<String>, command: Command) -> Self {
         Self::new(group, title, Act::App(command))
     }
 
-    fn window(title: impl Into<String>, group: Group, act: WindowAct) -> Self {
+    pub(super) fn window(title: impl Into<String>, group: Group, act: WindowAct) -> Self {
         Self::new(group, title, Act::Window(act))
     }
 
-    fn key(mut self, modifiers: Modifiers, key: Key) -> Self {
+    pub(super) fn key(mut self, modifiers: Modifiers, key: Key) -> Self {
         self.keys.push(KeyboardShortcut::new(modifiers, key));
         self
     }
 
-    fn when(mut self, is_enabled: bool) -> Self {
+    pub(super) fn when(mut self, is_enabled: bool) -> Self {
         self.is_enabled = is_enabled;
         self
     }
@@ -145,7 +145,7 @@ impl Action {
         self
     }
 
-    fn repeating(mut self) -> Self {
+    pub(super) fn repeating(mut self) -> Self {
         self.repeats = true;
         self
     }
@@ -186,6 +186,7 @@ pub fn actions(state: &State) -> Vec<Action> {
     all.extend(view_actions(state));
     all.extend(style_actions(state));
     all.extend(window_actions(state));
+    all.extend(super::folder::keys::actions(state));
     all
 }
 
@@ -479,7 +480,8 @@ fn window_actions(state: &State) -> Vec<Action> {
     actions.extend(
         Pane::ALL
             .into_iter()
-            .filter(|&pane| pane != Pane::View)
+            // Those beside the view have keys of their own.
+            .filter(|pane| !pane.has_key())
             .map(|pane| Action::window(format!("Panel: {}", pane.title()), Window, WindowAct::Show(pane))),
     );
     actions

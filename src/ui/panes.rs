@@ -5,6 +5,7 @@ use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse
 
 use super::actions::{Act, Action, WindowAct};
 use super::files::{self, FilesAnswer};
+use super::folder::{self, FolderAnswer};
 use super::layout::Pane;
 use super::{contributions, hemisphere, parameters, point, ranking, score_map, scrub, view_bar, view3d};
 use crate::app::{Command, State};
@@ -98,6 +99,11 @@ impl Panes<'_> {
                 });
             }
             Pane::Contributions => contributions::show(ui, state, commands),
+            Pane::Table | Pane::Charts | Pane::Gallery | Pane::Sweep => {
+                if let Some(FolderAnswer::ShowView) = folder::show(ui, pane, state, commands) {
+                    self.acts.push(Act::Window(WindowAct::Show(Pane::View)));
+                }
+            }
         }
     }
 }

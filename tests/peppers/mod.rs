@@ -20,9 +20,9 @@ pub fn write_pepper(folder: &Path, seed: u64) -> PathBuf {
     let settings = PepperSettings {
         seed,
         camera: DepthCamera {
-            width_px: 200,
-            height_px: 150,
-            focal_px: 150.0,
+            width_px: 320,
+            height_px: 240,
+            focal_px: 240.0,
             ..DepthCamera::default()
         },
         ..PepperSettings::default()

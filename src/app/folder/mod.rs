@@ -135,6 +135,8 @@ pub enum FolderCommand {
     Filter(Box<Filter>),
     /// Measure errors against another reference.
     Against(TruthChoice),
+    /// Show the cloud that is so many places further on in the order of errors, least first.
+    GoWorse(isize),
     /// Tags and note of a cloud, by its place in the list.
     Tag {
         /// Which cloud.

@@ -79,8 +79,33 @@ impl App {
                 self.state.folder.against = choice;
                 self.reorder();
             }
+            FolderCommand::GoWorse(by) => self.go_worse(by),
             FolderCommand::Tag { place, tagged } => self.tag(place, tagged),
         }
+    }
+
+    /// Of the clouds that the table shows, the one whose error is the next larger or smaller.
+    fn go_worse(&mut self, by: isize) {
+        let folder = &self.state.folder;
+        let error = |place: usize| folder.rows[place].error_deg(folder.against);
+        let mut ranked: Vec<(f64, usize)> = folder
+            .order
+            .iter()
+            .filter_map(|&place| Some((error(place)?, place)))
+            .collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let Some(last) = ranked.len().checked_sub(1) else {
+            self.say(false, "No cloud has an error against this reference yet.".into());
+            return;
+        };
+        let current = self.state.current;
+        let to = match ranked.iter().position(|&(_, place)| Some(place) == current) {
+            Some(at) => at.checked_add_signed(by).map_or(0, |to| to.min(last)),
+            None if by > 0 => last,
+            None => 0,
+        };
+        let place = ranked[to].1;
+        self.apply(crate::app::Command::Show(place));
     }
 
     /// Makes the rows those of the list; what is known of a cloud stays.

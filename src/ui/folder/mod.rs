@@ -1,0 +1,29 @@
+//! The open clouds as a set: a table, charts, a gallery and a map over settings, each a panel.
+
+mod bar;
+mod charts;
+mod filters;
+pub(super) mod keys;
+mod table;
+mod tagging;
+
+use egui::Ui;
+
+use super::layout::Pane;
+use crate::app::{Command, State};
+
+/// What a panel of clouds cannot do itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FolderAnswer {
+    /// The view is wanted in front: a cloud was chosen to be looked at.
+    ShowView,
+}
+
+/// Draws one of the panels; says whether the view is wanted.
+pub fn show(ui: &mut Ui, pane: Pane, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
+    match pane {
+        Pane::Table => table::show(ui, state, commands),
+        Pane::Charts => charts::show(ui, state, commands),
+        _ => None,
+    }
+}
