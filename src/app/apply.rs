@@ -159,7 +159,7 @@ impl App {
         }
     }
 
-    fn set(&mut self, request: Request, gesture: Option<&'static str>) {
+    pub(super) fn set(&mut self, request: Request, gesture: Option<&'static str>) {
         if request == self.state.settings.request {
             return;
         }

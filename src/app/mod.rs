@@ -12,6 +12,8 @@ mod apply;
 mod caption;
 mod command_line;
 mod details;
+#[cfg(feature = "window")]
+mod drawing;
 mod files;
 pub mod folder;
 mod history;
@@ -48,6 +50,8 @@ use worker::{Crashed, Lane, Repaint};
 
 pub use caption::{caption, lead_in_words};
 pub use command_line::{analysis_options, command_line, quoted};
+#[cfg(feature = "window")]
+pub use drawing::{Drawing, DrawingError, draw as draw_cloud};
 pub use history::History as UndoHistory;
 pub use navigate::{default_camera, dragged};
 pub use samples::Sample;

@@ -7,6 +7,7 @@
 mod examine;
 mod outcome;
 mod report;
+mod results;
 mod row;
 mod start;
 mod summary;
@@ -16,6 +17,7 @@ mod table;
 pub use examine::{Examined, Request, TruthChoice, compared, examine, reference_of, sentence};
 pub use outcome::{KnownAxis, Outcome, annotations_in, clouds_in, files_behind};
 pub use report::{AnalysisReport, SCHEMA, Timings};
+pub use results::{ResultsError, WorstPicture, result_files, worst_first};
 pub use row::Row;
 pub use start::{StartError, start_axis};
 pub use summary::Summary;

@@ -73,6 +73,16 @@ impl Crew {
         }
         work();
     }
+
+    /// Runs `work` on one of the threads, and what it does in parallel on all of them; on the caller's
+    /// where there are none.
+    pub fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = &self.pool {
+            return pool.install(work);
+        }
+        work()
+    }
 }
 
 impl Default for Crew {

@@ -6,6 +6,8 @@ mod driving;
 mod peppers;
 
 mod charts;
+mod gallery;
+mod sweep;
 mod table;
 
 use std::path::Path;

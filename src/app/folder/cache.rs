@@ -94,8 +94,9 @@ impl Cache {
         };
     }
 
-    pub(super) fn folder(&self) -> Option<&Path> {
-        self.folder.as_deref()
+    /// Where things are kept on disk.
+    pub(super) fn folder(&self) -> Option<PathBuf> {
+        self.folder.clone()
     }
 
     /// Why nothing is kept on disk, the first time that is asked.
@@ -195,6 +196,7 @@ impl Cache {
             self.stamps.insert(path, (stamp, sha256));
         }
         prune(folder);
+        super::thumbnails::prune(folder);
     }
 
     fn append(&mut self, name: &str, line: &impl Serialize) {

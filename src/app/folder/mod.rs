@@ -2,9 +2,13 @@
 //! drawn small, and swept over settings.
 
 mod cache;
+#[cfg(feature = "window")]
+mod pictures;
 mod run;
+mod sweeping;
 mod table;
 mod tags;
+mod thumbnails;
 mod update;
 
 use std::collections::{HashMap, HashSet};
@@ -20,11 +24,17 @@ use super::worker::{Lane, Repaint};
 use crate::evaluate::{Request, TruthChoice};
 use crate::geometry::Crew;
 
+#[cfg(feature = "window")]
+pub use pictures::pictures_of_worst;
+pub use sweeping::{MOST_TAUS, SweepState, SweepWish};
 pub use table::{Column, Filter, Sort, TableRow, ordered};
 pub use tags::{TAGS_FILE, Tagged, read_tags};
+pub use thumbnails::{KEPT_PICTURES, THUMBNAIL_PX, Thumbnail, Thumbnails};
 
 use run::{Background, Found};
+use sweeping::Sweeper;
 use tags::Scribe;
+use thumbnails::Studio;
 
 /// Folders of up to so many clouds are evaluated as they are opened.
 pub const EVALUATED_AT_ONCE: usize = 200;
@@ -47,6 +57,7 @@ pub struct KeptFolder {
     sort: Sort,
     filter: Filter,
     against: TruthChoice,
+    sweep: SweepWish,
 }
 
 impl Default for KeptFolder {
@@ -55,6 +66,7 @@ impl Default for KeptFolder {
             sort: Sort::default(),
             filter: Filter::default(),
             against: TruthChoice::Auto,
+            sweep: SweepWish::default(),
         }
     }
 }
@@ -82,6 +94,10 @@ pub struct FolderState {
     pub was_cancelled: bool,
     /// All tags that there are, sorted, each once.
     pub known_tags: Arc<Vec<String>>,
+    /// Small pictures, of some of the clouds.
+    pub pictures: Arc<Thumbnails>,
+    /// The map of the error over settings.
+    pub sweep: SweepState,
 }
 
 impl FolderState {
@@ -97,6 +113,8 @@ impl FolderState {
             missing: 0,
             was_cancelled: false,
             known_tags: Arc::default(),
+            pictures: Arc::default(),
+            sweep: SweepState::new(kept.sweep),
         }
     }
 
@@ -105,6 +123,7 @@ impl FolderState {
             sort: self.sort,
             filter: self.filter.clone(),
             against: self.against,
+            sweep: self.sweep.wish.clone(),
         }
     }
 
@@ -137,6 +156,21 @@ pub enum FolderCommand {
     Against(TruthChoice),
     /// Show the cloud that is so many places further on in the order of errors, least first.
     GoWorse(isize),
+    /// Draw small pictures of these clouds, which are in sight, by their places in the list.
+    Picture(Vec<usize>),
+    /// Which settings are to be swept.
+    Wish(Box<SweepWish>),
+    /// Sweep over them.
+    Sweep,
+    /// Call the sweep off; the map stays as far as it came.
+    CancelSweep,
+    /// Analyze with a cell's settings.
+    OpenSetting {
+        /// Grid steps.
+        u: usize,
+        /// Weight of angles.
+        tau_cm_per_rad: f64,
+    },
     /// Tags and note of a cloud, by its place in the list.
     Tag {
         /// Which cloud.
@@ -176,6 +210,8 @@ pub(super) struct Folder {
     worked_out: usize,
     places: HashMap<PathBuf, usize>,
     scribe: Scribe,
+    studio: Studio,
+    sweeper: Sweeper,
     tags_read: HashSet<PathBuf>,
     undone: Vec<TagEdit>,
     done: Vec<TagEdit>,
@@ -203,6 +239,8 @@ impl Folder {
             worked_out: 0,
             places: HashMap::new(),
             scribe: Scribe::new(repaint.clone())?,
+            studio: Studio::new(repaint)?,
+            sweeper: Sweeper::new(repaint)?,
             tags_read: HashSet::new(),
             undone: Vec::new(),
             done: Vec::new(),
@@ -211,6 +249,10 @@ impl Folder {
     }
 
     pub(super) fn is_busy(&self) -> bool {
-        self.lane.is_busy() || self.rested.is_some() || self.scribe.is_busy()
+        self.lane.is_busy()
+            || self.rested.is_some()
+            || self.scribe.is_busy()
+            || self.studio.is_busy()
+            || self.sweeper.is_busy()
     }
 }

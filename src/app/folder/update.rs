@@ -40,6 +40,8 @@ impl App {
         self.notice_parameters(elapsed);
         self.take_found();
         self.take_tags();
+        self.update_pictures();
+        self.update_sweep();
         let problem = self.folder.background.cache().take_problem();
         if let Some(problem) = problem {
             self.say(true, problem);
@@ -80,6 +82,16 @@ impl App {
                 self.reorder();
             }
             FolderCommand::GoWorse(by) => self.go_worse(by),
+            FolderCommand::Picture(places) => self.want_pictures(&places),
+            FolderCommand::Wish(wish) => self.state.folder.sweep.wish = *wish,
+            FolderCommand::Sweep => self.sweep(),
+            FolderCommand::CancelSweep => self.cancel_sweep(),
+            FolderCommand::OpenSetting { u, tau_cm_per_rad } => {
+                let mut request = self.state.settings.request.clone();
+                request.params.u = u;
+                request.params.tau_cm_per_rad = tau_cm_per_rad;
+                self.set(request, None);
+            }
             FolderCommand::Tag { place, tagged } => self.tag(place, tagged),
         }
     }

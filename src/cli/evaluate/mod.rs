@@ -1,9 +1,5 @@
 //! `axiscope evaluate`: a folder of clouds, each compared with its reference.
 
-mod figures;
-mod html;
-#[cfg(feature = "window")]
-mod pictures;
 mod store;
 mod sweep;
 
@@ -12,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::Context;
-use axiscope::evaluate::{Row, Summary, Sweep, TruthChoice, csv, parquet};
+use axiscope::evaluate::{Row, Summary, Sweep, TruthChoice, result_files};
 use axiscope::geometry::{Watch, map_pieces};
 use clap::{Args, ValueEnum};
 
@@ -107,36 +103,17 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
 
     let rows: Vec<Row> = stored.iter().map(|s| s.row.clone()).collect();
     let summary = Summary::of(&rows);
-    let save = |name: &str, bytes: &[u8]| {
-        let path = args.out.join(name);
-        std::fs::write(&path, bytes).with_context(|| path.display().to_string())
-    };
-    save("results.csv", &csv(&rows)?)?;
-    save("results.parquet", &parquet(&rows)?)?;
-    save(
-        "summary.json",
-        (serde_json::to_string_pretty(&summary)? + "\n").as_bytes(),
-    )?;
-    let mut figures = figures::of_rows(&rows);
-    if let Some(settings) = sweep {
+    let map = sweep.map(|settings| {
         let mut map = Sweep::new(settings);
         for errors_deg in stored.iter().filter_map(|s| s.sweep_deg.as_ref()) {
             map.add(errors_deg);
         }
-        save("sweep.csv", &sweep::table(&map)?)?;
-        figures.push(("sweep", figures::of_sweep(&map)));
-    }
-    let mut drawn = Vec::new();
-    for (name, figure) in figures {
-        // A set without a single error has nothing to draw.
-        let Ok(svg) = figure.svg() else { continue };
-        save(&format!("{name}.svg"), svg.as_bytes())?;
-        save(&format!("{name}.png"), &figure.png(1.0)?)?;
-        drawn.push(svg);
-    }
+        map
+    });
     #[cfg(feature = "window")]
     let pictures = {
-        let (pictures, problem) = pictures::of_worst(&args.folder, &rows, &request, args.pictures);
+        let (pictures, problem) =
+            axiscope::app::folder::pictures_of_worst(&args.folder, &rows, &request, args.pictures);
         if let Some(problem) = problem {
             eprintln!("Warning: {problem}");
         }
@@ -144,8 +121,10 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     };
     #[cfg(not(feature = "window"))]
     let pictures = Vec::new();
-    let page = html::report(&args.folder, &request, &rows, &summary, &drawn, &pictures);
-    save("report.html", page.as_bytes())?;
+    for (name, bytes) in result_files(&args.folder, &request, &rows, map.as_ref(), &pictures)? {
+        let path = args.out.join(name);
+        std::fs::write(&path, bytes).with_context(|| path.display().to_string())?;
+    }
     write_summary(&mut std::io::stdout().lock(), &summary)?;
     eprintln!(
         "Wrote results, summary, figures and report.html to {}.",

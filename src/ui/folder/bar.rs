@@ -72,7 +72,7 @@ fn evaluation(ui: &mut Ui, state: &State, say: &mut impl FnMut(FolderCommand)) {
 }
 
 /// How long something will take, as people say it.
-fn in_words(left: Duration) -> String {
+pub(super) fn in_words(left: Duration) -> String {
     let seconds = left.as_secs_f64();
     if seconds < 10.0 {
         "a few seconds left".into()

@@ -3,7 +3,9 @@
 mod bar;
 mod charts;
 mod filters;
+mod gallery;
 pub(super) mod keys;
+mod sweep;
 mod table;
 mod tagging;
 
@@ -24,6 +26,8 @@ pub fn show(ui: &mut Ui, pane: Pane, state: &State, commands: &mut Vec<Command>)
     match pane {
         Pane::Table => table::show(ui, state, commands),
         Pane::Charts => charts::show(ui, state, commands),
+        Pane::Gallery => gallery::show(ui, state, commands),
+        Pane::Sweep => sweep::show(ui, state, commands),
         _ => None,
     }
 }

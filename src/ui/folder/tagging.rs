@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             ui.scope(|ui| {
                 ui.visuals_mut().weak_text_color = Some(ui.visuals().text_color());
                 let field = TextEdit::singleline(&mut typed.tags)
-                    .hint_text("leaf in front, stem hidden")
+                    .hint_text("Words with commas between")
                     .desired_width(width);
                 let field = ui
                     .add(field)
