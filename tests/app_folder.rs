@@ -1,13 +1,17 @@
 //! The open clouds as a set, without a window: evaluated in the background, cached, sorted, filtered, tagged.
 
+mod cli;
 mod driving;
 mod peppers;
 
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use axiscope::app::folder::{Column, Filter, FolderCommand, Sort, TAGS_FILE, TableRow, Tagged, ordered};
-use axiscope::app::{App, Command};
+use axiscope::app::folder::{
+    Column, Filter, FolderCommand, Sort, SweepWish, TAGS_FILE, TableRow, Tagged, evaluate_command_line,
+    ordered,
+};
+use axiscope::app::{App, Command, Session};
 use axiscope::evaluate::{Request, Row, TruthChoice, examine};
 use axiscope::io::Fruit;
 use driving::{act, app, settle};
@@ -419,6 +423,118 @@ fn a_large_folder_waits_to_be_asked() {
     assert_eq!(app.state().entries.len(), 201);
     assert_eq!(app.state().folder.missing, 200, "all but the current one");
     assert_eq!(app.background_reads(), 0);
+}
+
+#[test]
+fn saved_results_are_those_of_the_command_line_that_is_copied() {
+    let dir = TempDir::new().expect("a folder");
+    let set_folder = dir.path().join("set");
+    write_peppers(&set_folder, 3);
+    std::fs::write(set_folder.join("broken.ply"), "ply\n").expect("written");
+    let mut app = opened(&set_folder, &dir.path().join("cache"));
+    let tagged = Tagged {
+        note: "odd".into(),
+        ..Tagged::default().with_tags("leaf")
+    };
+    act(&mut app, folder(FolderCommand::Tag { place: 2, tagged }));
+    set(&mut app, |r| r.params.u = 7);
+    act(&mut app, folder(FolderCommand::Against(TruthChoice::Peduncle)));
+    let into = dir.path().to_owned();
+    act(&mut app, folder(FolderCommand::SaveResults(into.clone())));
+    assert!(
+        app.state()
+            .messages
+            .iter()
+            .any(|m| m.text.contains("once all open clouds are evaluated"))
+    );
+    act(&mut app, folder(FolderCommand::Evaluate));
+    let wish = SweepWish {
+        u: [5, 7],
+        tau_cm_per_rad: [0.0, 1.0],
+        tau_step_cm_per_rad: 0.5,
+        ..SweepWish::default()
+    };
+    act(&mut app, folder(FolderCommand::Wish(Box::new(wish))));
+    act(&mut app, folder(FolderCommand::Sweep));
+    assert_eq!(app.state().folder.sweep.clouds, [3, 4]);
+    for _ in 0..2 {
+        act(&mut app, folder(FolderCommand::SaveResults(into.clone())));
+    }
+    let saved = into.join("axiscope-results");
+    assert!(
+        into.join("axiscope-results-2").join("results.csv").exists(),
+        "nothing is written over"
+    );
+
+    let words = evaluate_command_line(app.state()).expect("files are open");
+    let place = words.iter().position(|word| word == "--out").expect("an output");
+    let mut words: Vec<String> = words[1..].to_vec();
+    let other = into.join("by command");
+    words[place] = other.display().to_string();
+    let ran = cli::run(&words);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let mut names: Vec<_> = std::fs::read_dir(&saved)
+        .expect("saved")
+        .map(|entry| entry.expect("an entry").file_name())
+        .collect();
+    names.sort();
+    assert!(names.len() >= 8, "{names:?}");
+    for name in names {
+        let read = |folder: &Path| std::fs::read(folder.join(&name)).expect("both have it");
+        // Means are added up in another order.
+        if name == "sweep.csv" || name.to_string_lossy().starts_with("sweep.") {
+            continue;
+        }
+        if name == "report.html" {
+            let text = |folder: &Path| String::from_utf8(read(folder)).expect("text").len();
+            assert_eq!(text(&saved), text(&other));
+        } else {
+            assert!(read(&saved) == read(&other), "{name:?} differs");
+        }
+    }
+    let table = std::fs::read_to_string(saved.join("results.csv")).expect("a table");
+    assert!(table.contains("leaf,odd"), "{table}");
+    let sweep = |folder: &Path| -> Vec<f64> {
+        let mut table = csv::Reader::from_path(folder.join("sweep.csv")).expect("a table");
+        table
+            .records()
+            .map(|r| r.expect("a row")[3].parse().expect("a mean"))
+            .collect()
+    };
+    for (a, b) in sweep(&saved).into_iter().zip(sweep(&other)) {
+        assert!((a - b).abs() < 1e-9, "{a} and {b}");
+    }
+}
+
+#[test]
+fn sort_filter_and_sweep_survive_a_restart() {
+    let dir = TempDir::new().expect("a folder");
+    write_peppers(dir.path(), 2);
+    let mut app = app();
+    act(&mut app, Command::Open(vec![dir.path().to_owned()]));
+    let sort = Sort {
+        by: Column::Lead,
+        is_descending: true,
+    };
+    act(&mut app, folder(FolderCommand::Sort(sort)));
+    let filter = Filter {
+        search: "pepper".into(),
+        above_deg: Some(1.5),
+        ..Filter::default()
+    };
+    act(&mut app, folder(FolderCommand::Filter(Box::new(filter))));
+    act(&mut app, folder(FolderCommand::Against(TruthChoice::Truth)));
+    let path = dir.path().join("session.json");
+    Session::of(app.state()).write(&path).expect("it can be kept");
+    let again = App::new(
+        Session::read(&path).expect("it was kept"),
+        &(std::sync::Arc::new(|| {}) as _),
+    );
+    let state = again.expect("threads can be started").state().folder.clone();
+    assert_eq!(
+        (state.sort, &state.filter, state.against),
+        (sort, &app.state().folder.filter, TruthChoice::Truth)
+    );
 }
 
 /// A row of an outcome that never was.

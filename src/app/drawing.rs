@@ -40,6 +40,8 @@ pub struct Drawing {
     pub projection: Projection,
     /// Whether depth is shaded.
     pub is_shaded: bool,
+    /// Whether the angle between the axes stands beside them.
+    pub has_angle: bool,
 }
 
 /// Why a cloud was not drawn. A clause.
@@ -124,7 +126,7 @@ pub fn draw(examined: &Examined, drawing: &Drawing, name: &str, gpu: &Gpu) -> Re
     let caption = caption(name, analysis, index, axis, reference);
     let both = axis
         .zip(reference)
-        .filter(|_| has(Overlay::Axis) && has(Overlay::Reference));
+        .filter(|_| drawing.has_angle && has(Overlay::Axis) && has(Overlay::Reference));
     // Where the drawn line ends: 0.62 of the fruit's size, which is twice the shading's length.
     let reach = 1.24 * f64::from(scene.eye_dome.scale);
     let angle = both.map(|(axis, reference)| angle_label(axis, reference, reach));

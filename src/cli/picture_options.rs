@@ -72,6 +72,7 @@ impl Picture {
                 Projection::Perspective
             },
             is_shaded: !self.flat,
+            has_angle: true,
         }
     }
 }

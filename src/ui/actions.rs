@@ -22,6 +22,10 @@ pub enum WindowAct {
     SaveImageOf([u32; 2]),
     /// Put the equivalent command line on the clipboard.
     CopyCommandLine,
+    /// Ask where the results of all clouds are to be saved, and save them.
+    SaveResults,
+    /// Put the command line that evaluates all clouds on the clipboard.
+    CopyEvaluation,
     /// Show the keys.
     Help,
     /// Look for a command by its name.

@@ -12,6 +12,8 @@ pub(super) enum Asked {
     Open(Vec<PathBuf>),
     /// The view is to be saved here, with so many pixels.
     SaveImage(PathBuf, [u32; 2]),
+    /// Results are to be saved in a new folder within this one.
+    SaveResults(PathBuf),
     /// No dialog could be shown.
     Failed(String),
 }
@@ -44,6 +46,15 @@ pub(super) fn save_image(ctx: &egui::Context, answers: &Sender<Asked>, name: &st
         .save_file();
     wait(ctx, answers, async move {
         Some(Asked::SaveImage(path_of(&answer.await?), size_px))
+    });
+}
+
+pub(super) fn save_results(ctx: &egui::Context, answers: &Sender<Asked>) {
+    let answer = AsyncFileDialog::new()
+        .set_title("Save the results in a new folder within")
+        .pick_folder();
+    wait(ctx, answers, async move {
+        Some(Asked::SaveResults(path_of(&answer.await?)))
     });
 }
 

@@ -100,8 +100,12 @@ impl Panes<'_> {
             }
             Pane::Contributions => contributions::show(ui, state, commands),
             Pane::Table | Pane::Charts | Pane::Gallery | Pane::Sweep => {
-                if let Some(FolderAnswer::ShowView) = folder::show(ui, pane, state, commands) {
-                    self.acts.push(Act::Window(WindowAct::Show(Pane::View)));
+                if let Some(answer) = folder::show(ui, pane, state, commands) {
+                    self.acts.push(Act::Window(match answer {
+                        FolderAnswer::ShowView => WindowAct::Show(Pane::View),
+                        FolderAnswer::SaveResults => WindowAct::SaveResults,
+                        FolderAnswer::CopyCommandLine => WindowAct::CopyEvaluation,
+                    }));
                 }
             }
         }

@@ -17,6 +17,7 @@ use super::panes::Panes;
 use super::save_image::{self, SaveImage};
 use super::scrub::walks_by_rank;
 use super::{help, menu, status, theme};
+use crate::app::folder::{FolderCommand, evaluate_command_line};
 use crate::app::worker::Repaint;
 use crate::app::{App, Command, Session, command_line, quoted};
 
@@ -231,6 +232,7 @@ impl Window {
             acts.push(Act::App(match answer {
                 Asked::Open(paths) => Command::Open(paths),
                 Asked::SaveImage(path, size_px) => Command::SaveImage { path, size_px },
+                Asked::SaveResults(into) => Command::Folder(FolderCommand::SaveResults(into)),
                 Asked::Failed(text) => Command::Say { is_error: true, text },
             }));
         }
@@ -304,6 +306,16 @@ impl Window {
                     is_error: false,
                     text: "Copied the command line that draws this view.".into(),
                 });
+            }
+            WindowAct::SaveResults => dialogs::save_results(ctx, &answers),
+            WindowAct::CopyEvaluation => {
+                if let Some(words) = evaluate_command_line(self.app.state()) {
+                    ctx.copy_text(quoted(&words));
+                    self.app.apply(Command::Say {
+                        is_error: false,
+                        text: "Copied the command line that evaluates these clouds.".into(),
+                    });
+                }
             }
             WindowAct::Help => self.is_help_open = true,
             WindowAct::About => self.is_about_open = true,

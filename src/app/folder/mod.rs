@@ -5,6 +5,7 @@ mod cache;
 #[cfg(feature = "window")]
 mod pictures;
 mod run;
+mod saving;
 mod sweeping;
 mod table;
 mod tags;
@@ -26,6 +27,7 @@ use crate::geometry::Crew;
 
 #[cfg(feature = "window")]
 pub use pictures::pictures_of_worst;
+pub use saving::{add_tags, evaluate_command_line};
 pub use sweeping::{MOST_TAUS, SweepState, SweepWish};
 pub use table::{Column, Filter, Sort, TableRow, ordered};
 pub use tags::{TAGS_FILE, Tagged, read_tags};
@@ -171,6 +173,8 @@ pub enum FolderCommand {
         /// Weight of angles.
         tau_cm_per_rad: f64,
     },
+    /// Save the results in a new folder within this one.
+    SaveResults(PathBuf),
     /// Tags and note of a cloud, by its place in the list.
     Tag {
         /// Which cloud.
@@ -212,6 +216,7 @@ pub(super) struct Folder {
     scribe: Scribe,
     studio: Studio,
     sweeper: Sweeper,
+    results: Lane<Result<String, String>>,
     tags_read: HashSet<PathBuf>,
     undone: Vec<TagEdit>,
     done: Vec<TagEdit>,
@@ -241,6 +246,7 @@ impl Folder {
             scribe: Scribe::new(repaint.clone())?,
             studio: Studio::new(repaint)?,
             sweeper: Sweeper::new(repaint)?,
+            results: Lane::new("results", repaint.clone())?,
             tags_read: HashSet::new(),
             undone: Vec::new(),
             done: Vec::new(),
@@ -249,10 +255,7 @@ impl Folder {
     }
 
     pub(super) fn is_busy(&self) -> bool {
-        self.lane.is_busy()
-            || self.rested.is_some()
-            || self.scribe.is_busy()
-            || self.studio.is_busy()
-            || self.sweeper.is_busy()
+        let is_drawing = self.studio.is_busy() || self.sweeper.is_busy() || self.results.is_busy();
+        self.lane.is_busy() || self.rested.is_some() || self.scribe.is_busy() || is_drawing
     }
 }

@@ -108,6 +108,8 @@ pub(super) fn picture(
         point_size_px: None,
         projection: Projection::Perspective,
         is_shaded: true,
+        // A small picture has no room for words.
+        has_angle: size_px == REPORT_PX,
     };
     let path = &examined.fruit.file.path;
     let name = path.file_name().unwrap_or_default().to_string_lossy();

@@ -42,6 +42,7 @@ impl App {
         self.take_tags();
         self.update_pictures();
         self.update_sweep();
+        self.update_results();
         let problem = self.folder.background.cache().take_problem();
         if let Some(problem) = problem {
             self.say(true, problem);
@@ -85,6 +86,7 @@ impl App {
             FolderCommand::Picture(places) => self.want_pictures(&places),
             FolderCommand::Wish(wish) => self.state.folder.sweep.wish = *wish,
             FolderCommand::Sweep => self.sweep(),
+            FolderCommand::SaveResults(into) => self.save_results(into),
             FolderCommand::CancelSweep => self.cancel_sweep(),
             FolderCommand::OpenSetting { u, tau_cm_per_rad } => {
                 let mut request = self.state.settings.request.clone();

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::Context;
+use axiscope::app::folder::{add_tags, read_tags};
 use axiscope::evaluate::{Row, Summary, Sweep, TruthChoice, result_files};
 use axiscope::geometry::{Watch, map_pieces};
 use clap::{Args, ValueEnum};
@@ -101,7 +102,11 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
         eprintln!("Warning: a later --resume will not find every row: {problem}");
     }
 
-    let rows: Vec<Row> = stored.iter().map(|s| s.row.clone()).collect();
+    let mut rows: Vec<Row> = stored.iter().map(|s| s.row.clone()).collect();
+    match read_tags(&args.folder) {
+        Ok(tags) => add_tags(&mut rows, &tags),
+        Err(problem) => eprintln!("Warning: {problem}"),
+    }
     let summary = Summary::of(&rows);
     let map = sweep.map(|settings| {
         let mut map = Sweep::new(settings);

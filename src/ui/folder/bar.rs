@@ -4,12 +4,13 @@ use std::time::Duration;
 
 use egui::{Button, ProgressBar, Ui, vec2};
 
+use super::FolderAnswer;
 use crate::app::folder::FolderCommand;
 use crate::app::{Command, State, TruthChoice};
 use crate::ui::controls::{Choice, choose};
 
 /// Shows the line.
-pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
     let mut say = |command| commands.push(Command::Folder(command));
     ui.horizontal_wrapped(|ui| {
         evaluation(ui, state, &mut say);
@@ -20,7 +21,38 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 say(FolderCommand::Against(choice));
             }
         });
+        results(ui, state)
+    })
+    .inner
+}
+
+/// What can be taken along.
+fn results(ui: &mut Ui, state: &State) -> Option<FolderAnswer> {
+    let mut answer = None;
+    let folder = &state.folder;
+    let has_files = folder.rows.iter().any(|row| row.path.is_some());
+    let menu = ui.menu_button("Results", |ui| {
+        let save = Button::new("Save results …");
+        let save = ui
+            .add_enabled(has_files && folder.missing == 0, save)
+            .on_hover_text("Tables (CSV and Parquet), a summary, figures and a page with pictures of the worst, as “axiscope evaluate” writes them")
+            .on_disabled_hover_text("Once all clouds are evaluated");
+        if save.clicked() {
+            answer = Some(FolderAnswer::SaveResults);
+            ui.close();
+        }
+        let copy = ui.add_enabled(has_files, Button::new("Copy the command line"));
+        if copy
+            .on_hover_text("The “axiscope evaluate” that does the same without a window")
+            .clicked()
+        {
+            answer = Some(FolderAnswer::CopyCommandLine);
+            ui.close();
+        }
     });
+    menu.response
+        .on_hover_text("Save what came out, or do the same without a window");
+    answer
 }
 
 fn evaluation(ui: &mut Ui, state: &State, say: &mut impl FnMut(FolderCommand)) {

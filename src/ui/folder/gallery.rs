@@ -42,7 +42,10 @@ type Textures = HashMap<PathBuf, (Arc<Image>, TextureHandle)>;
 
 /// Draws the panel.
 pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
-    bar::show(ui, state, commands);
+    let asked = bar::show(ui, state, commands);
+    if asked.is_some() {
+        return asked;
+    }
     let hung = hung(ui, state);
     if hung.order.is_empty() {
         bar::nothing_yet(ui, state);
@@ -113,8 +116,8 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> O
 }
 
 fn hint(ui: &mut Ui, state: &State) {
-    let mut text = "The largest error first. Green is the computed axis, white or black the reference. Shift+PageDown and \
-                    Shift+PageUp go to the next larger and smaller error."
+    let mut text = "The largest error first; green is the computed axis. Shift+PageDown and Shift+PageUp go to the next \
+                    larger and smaller error."
         .to_owned();
     if !state.folder.filter.is_empty() {
         let (shown, all) = (state.folder.order.len(), state.folder.rows.len());

@@ -33,7 +33,21 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
             .when(folder.rows.len() > 1)
             .repeating()
     };
+    let has_files = folder.rows.iter().any(|row| row.path.is_some());
     vec![
+        Action::window(
+            "Save the results of all clouds …",
+            Group::File,
+            WindowAct::SaveResults,
+        )
+        .key(Modifiers::COMMAND | Modifiers::SHIFT, Key::S)
+        .when(has_files && folder.missing == 0),
+        Action::window(
+            "Copy the command line that evaluates all clouds",
+            Group::File,
+            WindowAct::CopyEvaluation,
+        )
+        .when(has_files),
         evaluation.key(Modifiers::COMMAND, Key::E),
         worse("Cloud with the next smaller error", -1, Key::PageUp),
         worse("Cloud with the next larger error", 1, Key::PageDown),

@@ -19,6 +19,10 @@ use crate::app::{Command, State};
 pub enum FolderAnswer {
     /// The view is wanted in front: a cloud was chosen to be looked at.
     ShowView,
+    /// Somebody wants to say where results are to be saved.
+    SaveResults,
+    /// The command line that evaluates the same is wanted on the clipboard.
+    CopyCommandLine,
 }
 
 /// Draws one of the panels; says whether the view is wanted.

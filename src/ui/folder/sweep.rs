@@ -16,7 +16,10 @@ use crate::ui::planes::ramp_color;
 
 /// Draws the panel.
 pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
-    bar::show(ui, state, commands);
+    let asked = bar::show(ui, state, commands);
+    if asked.is_some() {
+        return asked;
+    }
     wish(ui, state, commands);
     let sweep = &state.folder.sweep;
     let Some(map) = &sweep.map else {

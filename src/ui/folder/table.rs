@@ -75,7 +75,10 @@ struct Seen {
 
 /// Draws the panel.
 pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
-    bar::show(ui, state, commands);
+    let asked = bar::show(ui, state, commands);
+    if asked.is_some() {
+        return asked;
+    }
     filters::show(ui, state, commands);
     Panel::bottom("tags of a cloud")
         .show_separator_line(true)

@@ -67,7 +67,10 @@ const CURRENT: Color32 = Color32::from_rgb(0xe6, 0x9f, 0x00);
 
 /// Draws the panel.
 pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
-    bar::show(ui, state, commands);
+    let asked = bar::show(ui, state, commands);
+    if asked.is_some() {
+        return asked;
+    }
     let id = Id::unique("chart of clouds");
     let mut chart: Chart = ui.data(|data| data.get_temp(id)).unwrap_or_default();
     ui.horizontal_wrapped(|ui| {
