@@ -83,7 +83,9 @@ impl App {
     pub(super) fn want_pictures(&mut self, places: &[usize]) {
         let rows = &self.state.folder.rows;
         let path = |&place: &usize| rows.get(place)?.path.clone();
-        self.folder.studio.wanted = places.iter().filter_map(path).collect();
+        // More than are kept would push one another out for ever.
+        let wanted = places.iter().filter_map(path).take(KEPT_PICTURES);
+        self.folder.studio.wanted = wanted.collect();
     }
 
     pub(super) fn update_pictures(&mut self) {

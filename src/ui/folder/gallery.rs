@@ -189,7 +189,7 @@ fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: us
     } else {
         visuals.widgets.noninteractive.bg_stroke
     };
-    ui.painter().rect_stroke(frame, 3.0, stroke, StrokeKind::Outside);
+    ui.painter().rect_stroke(frame, 3.0, stroke, StrokeKind::Inside);
 
     let line = ui.text_style_height(&TextStyle::Body);
     let font = TextStyle::Body.resolve(ui.style());
@@ -204,9 +204,10 @@ fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: us
     let below = pos2(frame.left(), first + line + 1.0);
     let place = Rect::from_min_max(below, pos2(frame.right(), below.y + line));
     let second = if row.tagged.tags.is_empty() {
-        row.failure(state.folder.against)
-            .map(crate::evaluate::sentence)
-            .unwrap_or_default()
+        // Why a cloud cannot be used stands in place of its picture.
+        let usable = row.outcome.as_ref().filter(|o| o.row().sha256.is_some());
+        let failure = usable.and_then(|_| row.failure(state.folder.against));
+        failure.map(crate::evaluate::sentence).unwrap_or_default()
     } else {
         row.tagged.tags.join(", ")
     };
