@@ -153,23 +153,8 @@ impl Cache {
 
     fn rows_of(&mut self, params: &str) -> &mut HashMap<String, Arc<Outcome>> {
         let place = self.rows.iter().position(|(known, _)| known == params);
-        let entry = match place {
-            Some(place) => self.rows.remove(place),
-            None => {
-                let mut rows = HashMap::new();
-                if let Some(folder) = &self.folder {
-                    let path = folder.join(rows_file(params));
-                    // Used just now: it is not among those that go.
-                    if let Ok(file) = OpenOptions::new().append(true).open(&path) {
-                        let _ = file.set_modified(SystemTime::now());
-                    }
-                    for RowLine { key, outcome } in lines(&path) {
-                        rows.insert(key, outcome);
-                    }
-                }
-                (params.to_owned(), rows)
-            }
-        };
+        let entry = place.map(|place| self.rows.remove(place));
+        let entry = entry.unwrap_or_else(|| (params.to_owned(), self.read_rows(params)));
         // Two sets of parameters are gone to and fro between; more need no memory.
         if self.rows.len() > 3 {
             self.rows.remove(0);
@@ -177,6 +162,19 @@ impl Cache {
         self.rows.push(entry);
         let last = self.rows.len() - 1;
         &mut self.rows[last].1
+    }
+
+    fn read_rows(&self, params: &str) -> HashMap<String, Arc<Outcome>> {
+        let Some(folder) = &self.folder else {
+            return HashMap::new();
+        };
+        let path = folder.join(rows_file(params));
+        // Used just now: it is not among those that go.
+        if let Ok(file) = OpenOptions::new().append(true).open(&path) {
+            let _ = file.set_modified(SystemTime::now());
+        }
+        let lines = lines(&path).into_iter();
+        lines.map(|RowLine { key, outcome }| (key, outcome)).collect()
     }
 
     fn load(&mut self) {

@@ -47,8 +47,8 @@ impl Column {
 
     fn letters(self) -> f32 {
         match self {
-            Self::Opened => 4.5,
-            Self::Name => 14.0,
+            Self::Opened => 6.0,
+            Self::Name => 13.0,
             Self::Points | Self::TrueError | Self::Lead => 8.5,
             Self::PeduncleError => 11.5,
             Self::ManualError => 10.5,
