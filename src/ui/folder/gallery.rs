@@ -116,13 +116,16 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> O
 }
 
 fn hint(ui: &mut Ui, state: &State) {
-    let mut text = "The largest error first; green is the computed axis. Shift+PageDown and Shift+PageUp go to the next \
-                    larger and smaller error."
-        .to_owned();
-    if !state.folder.filter.is_empty() {
+    let filtered = if state.folder.filter.is_empty() {
+        String::new()
+    } else {
         let (shown, all) = (state.folder.order.len(), state.folder.rows.len());
-        text += &format!(" {shown} of {all} clouds, as the table is filtered.");
-    }
+        format!(" {shown} of {all} clouds, as the table is filtered.")
+    };
+    let text = format!(
+        "The largest error first; green is the computed axis. Shift+PageDown and Shift+PageUp go to the next larger \
+         and smaller error.{filtered}"
+    );
     ui.label(RichText::new(text).font(small(ui)));
 }
 

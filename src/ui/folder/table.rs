@@ -48,12 +48,11 @@ impl Column {
     fn letters(self) -> f32 {
         match self {
             Self::Opened => 6.0,
-            Self::Name => 13.0,
+            Self::Name | Self::Annotators => 13.0,
             Self::Points | Self::TrueError | Self::Lead => 8.5,
             Self::PeduncleError => 11.5,
             Self::ManualError => 10.5,
             Self::Warnings => 9.5,
-            Self::Annotators => 13.0,
             Self::Tags => 12.0,
         }
     }

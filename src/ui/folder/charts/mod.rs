@@ -193,30 +193,32 @@ fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> 
 /// Says which cloud is under the cursor.
 fn explain(response: &Response, state: &State, place: usize) {
     let row = &state.folder.rows[place];
-    let mut text = row.name.clone();
-    match (
+    let off = match (
         row.error_deg(state.folder.against),
         row.failure(state.folder.against),
     ) {
-        (Some(error), _) => text += &format!(": {error:.1}° off"),
-        (None, Some(why)) => text += &format!(": {why}"),
-        (None, None) => {}
-    }
-    if let Some(lead) = row.lead_percent() {
-        text += &format!("\nlead {lead:.1} %");
-    }
-    if let Some(distance) = row.distance_cm() {
-        text += &format!(", {distance:.0} cm away");
-    }
-    if !row.tagged.tags.is_empty() {
-        text += &format!("\n{}", row.tagged.tags.join(", "));
-    }
-    if row.is_stale {
-        text += "\nOf other parameters than those in force.";
-    }
-    response
-        .clone()
-        .on_hover_text_at_pointer(text + "\nA click opens it.");
+        (Some(error), _) => format!(": {error:.1}° off"),
+        (None, Some(why)) => format!(": {why}"),
+        (None, None) => String::new(),
+    };
+    let facts = [
+        row.lead_percent().map(|lead| format!("lead {lead:.1} %")),
+        row.distance_cm().map(|distance| format!("{distance:.0} cm away")),
+    ];
+    let stale = if row.is_stale {
+        "Of other parameters than those in force."
+    } else {
+        ""
+    };
+    let lines = [
+        row.name.clone() + &off,
+        facts.into_iter().flatten().collect::<Vec<_>>().join(", "),
+        row.tagged.tags.join(", "),
+        stale.to_owned(),
+        "A click opens it.".to_owned(),
+    ];
+    let lines: Vec<String> = lines.into_iter().filter(|line| !line.is_empty()).collect();
+    response.clone().on_hover_text_at_pointer(lines.join("\n"));
 }
 
 fn slot_at(data: &Data, value: PlotPoint) -> Option<usize> {
@@ -322,6 +324,8 @@ impl Written {
 }
 
 fn clouds(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>, state: &State) {
+    // Many bars have no room for gaps.
+    let width = if data.bars.len() > 120 { 1.0 } else { 0.8 };
     let bar = |mark: &Mark| {
         let color = if current == Some(mark.place) {
             CURRENT
@@ -330,7 +334,7 @@ fn clouds(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>, stat
         } else {
             BAR
         };
-        Bar::new(mark.x, mark.y).width(0.8).fill(color)
+        Bar::new(mark.x, mark.y).width(width).fill(color)
     };
     let bars = data.bars.iter().map(bar).collect();
     guides
