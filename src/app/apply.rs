@@ -20,6 +20,7 @@ impl App {
             Command::Open(paths) => self.open(&paths),
             Command::OpenSample(sample) => {
                 let place = self.state.add(Source::Bundled(sample));
+                self.list_changed(false);
                 self.show(place);
             }
             Command::Show(place) => self.show(place),
@@ -31,10 +32,21 @@ impl App {
             }
 
             Command::Set { request, gesture } => self.set(*request, gesture),
-            Command::EndGesture => self.history.end_gesture(),
+            Command::EndGesture => {
+                self.history.end_gesture();
+                self.end_typing();
+            }
             Command::UsePreset(preset) => self.use_preset(preset),
-            Command::Undo => self.travel(History::undo),
-            Command::Redo => self.travel(History::redo),
+            Command::Undo => {
+                if !self.undo_tag() {
+                    self.travel(History::undo);
+                }
+            }
+            Command::Redo => {
+                if !self.redo_tag() {
+                    self.travel(History::redo);
+                }
+            }
             Command::Cancel => {
                 if self.analysis.progress().is_some() {
                     self.analysis.cancel();
@@ -87,6 +99,7 @@ impl App {
                 self.set(request, Some("center"));
             }
 
+            Command::Folder(command) => self.apply_folder(command),
             Command::Scale(scale) => self.state.interface_scale = scale.clamp(0.5, 3.0),
             Command::Dismiss(id) => self.state.messages.retain(|message| message.id != id),
             Command::Say { is_error, text } => self.say(is_error, text),
@@ -96,6 +109,7 @@ impl App {
 
     fn open(&mut self, paths: &[PathBuf]) {
         let opened = self.state.open(paths);
+        self.list_changed(paths.iter().any(|path| path.is_dir()));
         for problem in opened.problems {
             self.say(true, problem);
         }
@@ -104,6 +118,7 @@ impl App {
             // Whatever was open was a sample, and has gone.
             None if self.state.current.is_none() => {
                 let place = self.state.add(Source::Bundled(super::Sample::Pepper));
+                self.list_changed(false);
                 self.show(place);
             }
             None => {}
@@ -123,11 +138,8 @@ impl App {
     }
 
     fn go(&mut self, by: isize) {
-        let count = self.state.entries.len();
-        if let (Some(current), 1..) = (self.state.current, count) {
-            let last = count.cast_signed() - 1;
-            let place = (current.cast_signed() + by).clamp(0, last);
-            self.show(place.cast_unsigned());
+        if let Some(place) = self.state.neighbor(by) {
+            self.show(place);
         }
     }
 
@@ -136,6 +148,7 @@ impl App {
             return;
         };
         self.state.entries.remove(current);
+        self.list_changed(false);
         self.state.current = None;
         self.leave_peduncle();
         if self.state.entries.is_empty() {
@@ -149,7 +162,7 @@ impl App {
         }
     }
 
-    fn set(&mut self, request: Request, gesture: Option<&'static str>) {
+    pub(super) fn set(&mut self, request: Request, gesture: Option<&'static str>) {
         if request == self.state.settings.request {
             return;
         }

@@ -1,9 +1,11 @@
 //! The list of open clouds.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use super::stages::Source;
 use super::state::{Entry, State};
+use crate::evaluate::clouds_in;
 
 /// Files that are remembered as opened lately.
 const MOST_RECENT: usize = 12;
@@ -27,6 +29,10 @@ impl State {
         self.entries
             .retain(|entry| matches!(entry.source, Source::File(_)));
         self.current = self.current.filter(|&i| i < self.entries.len());
+        let entries = self.entries.iter().enumerate();
+        let mut known: HashMap<Source, usize> = entries
+            .map(|(place, entry)| (entry.source.clone(), place))
+            .collect();
         for path in paths {
             let clouds = if path.is_dir() {
                 match clouds_in(path) {
@@ -47,10 +53,20 @@ impl State {
                 vec![path.clone()]
             };
             for cloud in clouds {
-                let place = self.add(Source::File(cloud));
+                let source = Source::File(cloud);
+                let place = *known.entry(source.clone()).or_insert_with(|| {
+                    self.entries.push(Entry {
+                        source,
+                        problem: None,
+                    });
+                    self.entries.len() - 1
+                });
                 opened.first.get_or_insert(place);
             }
-            self.remember(path);
+            // A list that comes back is nothing that somebody opened.
+            if paths.len() <= MOST_RECENT {
+                self.remember(path);
+            }
         }
         opened
     }
@@ -73,19 +89,4 @@ impl State {
         self.recent.insert(0, path);
         self.recent.truncate(MOST_RECENT);
     }
-}
-
-/// The clouds in a folder, by name; the peduncles' own files are none.
-fn clouds_in(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let mut clouds = Vec::new();
-    for entry in std::fs::read_dir(folder)? {
-        let path = entry?.path();
-        let is_ply = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply"));
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        if is_ply && !stem.ends_with("_peduncle") && path.is_file() {
-            clouds.push(path);
-        }
-    }
-    clouds.sort();
-    Ok(clouds)
 }

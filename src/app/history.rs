@@ -36,6 +36,11 @@ impl<T: PartialEq> History<T> {
         self.gesture = None;
     }
 
+    /// How many steps could be taken back.
+    pub fn depth(&self) -> usize {
+        self.past.len()
+    }
+
     /// Takes one step back; `now` is what there is. Hands out what there was.
     pub fn undo(&mut self, now: T) -> Option<T> {
         self.gesture = None;

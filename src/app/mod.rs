@@ -12,7 +12,10 @@ mod apply;
 mod caption;
 mod command_line;
 mod details;
+#[cfg(feature = "window")]
+mod drawing;
 mod files;
+pub mod folder;
 mod history;
 mod image;
 pub mod look;
@@ -39,6 +42,7 @@ use crate::render::{Camera, Viewport};
 use crate::view::{ShownPoints, pick_point};
 
 use details::Details;
+use folder::{Folder, FolderState};
 use history::History;
 use look::{Look, Question, Style, look};
 use navigate::framed_camera;
@@ -47,6 +51,8 @@ use worker::{Crashed, Discard, Lane, Repaint};
 
 pub use caption::{caption, lead_in_words};
 pub use command_line::{analysis_options, command_line, quoted};
+#[cfg(feature = "window")]
+pub use drawing::{Drawing, DrawingError, draw as draw_cloud};
 pub use history::History as UndoHistory;
 pub use navigate::{default_camera, dragged};
 pub use peduncle::{PeduncleCommand, PeduncleState};
@@ -122,6 +128,7 @@ pub struct App {
     repaint: Repaint,
     /// The last click that was not answered yet.
     pending_click: Option<PickQuestion>,
+    folder: Folder,
 }
 
 impl App {
@@ -134,6 +141,7 @@ impl App {
         let mut state = State::new(session.settings, session.style.into());
         state.recent = session.recent;
         state.interface_scale = session.interface_scale.clamp(0.5, 3.0);
+        state.folder = FolderState::new(session.folder);
         Ok(Self {
             state,
             history: History::default(),
@@ -156,6 +164,7 @@ impl App {
             arrivals: channel(),
             repaint: repaint.clone(),
             pending_click: None,
+            folder: Folder::new(repaint)?,
         })
     }
 
@@ -173,6 +182,11 @@ impl App {
 
     /// Whether the workers have anything to do, or to hand out.
     pub fn is_busy(&self) -> bool {
+        self.is_current_busy() || self.folder.is_busy()
+    }
+
+    /// Whether somebody waits for what they are doing: not for what is done for all clouds in the background.
+    pub fn is_current_busy(&self) -> bool {
         self.analysis.is_busy()
             || self.looks.is_busy()
             || self.picks.is_busy()
@@ -186,9 +200,12 @@ impl App {
         self.play(elapsed);
         self.take_arrivals();
         self.take_analysis(None);
+        self.update_folder(elapsed);
+        self.stand_aside(true);
         self.ask_for_analysis();
         self.ask_for_look();
         self.update_peduncle();
+        self.stand_aside(self.analysis.is_busy() || self.looks.is_busy());
         self.ask_for_pick();
         if let Some((_, result)) = self.images.take() {
             let (is_error, text) = match result {
@@ -199,8 +216,8 @@ impl App {
             self.say(is_error, text);
         }
         self.state.progress = self.analysis.progress();
-        self.state.can_undo = self.history.can_undo();
-        self.state.can_redo = self.history.can_redo();
+        self.state.can_undo = self.history.can_undo() || self.can_undo_tag();
+        self.state.can_redo = self.history.can_redo() || self.can_redo_tag();
     }
 
     fn say(&mut self, is_error: bool, text: String) {
@@ -336,6 +353,7 @@ impl App {
                 self.discard.take(self.state.walked.replace(Arc::new(walked)));
                 self.discard.take(self.state.unanalyzed.take());
                 self.state.is_stale = false;
+                self.take_current_row();
             }
             Err(WalkError::Analysis { fruit, shown, error }) => {
                 set_problem(Some(sentence(&error.to_string())));

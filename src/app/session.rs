@@ -25,6 +25,8 @@ pub struct Session {
     pub open: Vec<PathBuf>,
     /// Which of them was shown.
     pub current: Option<usize>,
+    /// How the table of clouds was sorted and filtered.
+    pub folder: super::folder::KeptFolder,
     /// How large the interface was.
     pub interface_scale: f32,
     /// The arrangement of the panels, as the window wrote it.
@@ -128,6 +130,7 @@ impl Session {
             recent: state.recent.clone(),
             current: files.iter().position(|(i, _)| Some(*i) == state.current),
             open: files.into_iter().map(|(_, path)| path).collect(),
+            folder: state.folder.kept(),
             interface_scale: state.interface_scale,
             layout: None,
             window_size: None,

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use super::folder::{FolderCommand, FolderState};
 use super::look::{Look, Style};
 use super::peduncle::{PeduncleCommand, PeduncleState};
 use super::samples::Sample;
@@ -160,6 +161,8 @@ pub struct State {
     pub is_software: bool,
     /// How large the interface is; 1 as the screen asks for.
     pub interface_scale: f32,
+    /// The open clouds as a set.
+    pub folder: FolderState,
 }
 
 impl State {
@@ -195,6 +198,7 @@ impl State {
             messages: Vec::new(),
             is_software: false,
             interface_scale: 1.0,
+            folder: FolderState::new(super::folder::KeptFolder::default()),
         }
     }
 
@@ -345,6 +349,9 @@ pub enum Command {
     MoveCenter(glam::DVec3),
     /// Pick the peduncle.
     Peduncle(PeduncleCommand),
+
+    /// Something of the set of open clouds.
+    Folder(FolderCommand),
 
     /// Make the interface larger or smaller.
     Scale(f32),

@@ -1,8 +1,9 @@
 //! What of a picture can be asked for on the command line.
 
+use axiscope::app::Drawing;
 use axiscope::evaluate::TruthChoice;
-use axiscope::render::Camera;
-use axiscope::view::{Coloring, Overlays, ViewPreset};
+use axiscope::render::{Camera, Projection};
+use axiscope::view::{Coloring, Overlays, Theme, ViewPreset};
 use clap::{Args, ValueEnum};
 
 use super::options::positive;
@@ -44,6 +45,36 @@ pub(super) struct Picture {
     /// No shading by depth
     #[arg(long)]
     pub(super) flat: bool,
+}
+
+impl Picture {
+    /// What these options ask for.
+    pub(super) fn drawing(&self) -> Drawing {
+        Drawing {
+            size_px: self.size,
+            coloring: self.color.coloring(),
+            plane: match self.plane {
+                PlaneChoice::Best => None,
+                PlaneChoice::Named { g, h } => Some([g, h]),
+            },
+            view: self.view.preset(),
+            camera: self.camera,
+            reference: self.reference.choice(),
+            overlays: self.overlays.clone().unwrap_or_default(),
+            theme: match self.background {
+                BackgroundOption::Dark => Theme::Dark,
+                BackgroundOption::Light => Theme::Light,
+            },
+            point_size_px: self.point_size,
+            projection: if self.orthographic {
+                Projection::Orthographic
+            } else {
+                Projection::Perspective
+            },
+            is_shaded: !self.flat,
+            has_angle: true,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]

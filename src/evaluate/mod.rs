@@ -5,7 +5,9 @@
 //! resumed run, a run in shards and an unbroken run give the same bytes.
 
 mod examine;
+mod outcome;
 mod report;
+mod results;
 mod row;
 mod start;
 mod summary;
@@ -15,7 +17,9 @@ mod table;
 pub use examine::{
     Examined, Request, TruthChoice, compared, examine, peduncle_disagreement_deg, reference_of, sentence,
 };
+pub use outcome::{KnownAxis, Outcome, annotations_in, clouds_in, files_behind};
 pub use report::{AnalysisReport, SCHEMA, Timings};
+pub use results::{ResultsError, WorstPicture, result_files, worst_first};
 pub use row::Row;
 pub use start::{StartError, start_axis};
 pub use summary::Summary;

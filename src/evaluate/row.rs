@@ -4,10 +4,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Examined, TruthChoice, peduncle_disagreement_deg, reference_of};
+use super::{Examined, Outcome, TruthChoice};
 use crate::geometry::Unit;
-use crate::method::{AxisEstimate, AxisSource};
-use crate::reference::axis_error_rad;
 
 /// One cloud's results. What does not exist is `None`; a cloud that failed has a `failure` and little
 /// else. Positions are in the file's unit and frame.
@@ -53,10 +51,23 @@ pub struct Row {
     pub peduncle_disagreement_deg: Option<f64>,
     /// The same against the simulator's axis, whatever the reference.
     pub true_axis_error_deg: Option<f64>,
+    /// The same against the axis set by hand, whatever the reference.
+    #[serde(default)]
+    pub manual_error_deg: Option<f64>,
+    /// Who has set an axis of this cloud by hand, with commas between the names.
+    #[serde(default)]
+    pub annotators: String,
     /// Warnings, as sentences in a row.
     pub warnings: String,
     /// Why there is no error: what could not be read, analyzed, or compared.
     pub failure: Option<String>,
+    /// What somebody tagged the cloud with, with commas between the tags. Not a result: it is kept in a
+    /// file of its own.
+    #[serde(skip)]
+    pub tags: String,
+    /// What somebody noted of the cloud.
+    #[serde(skip)]
+    pub note: String,
 }
 
 impl Row {
@@ -82,55 +93,18 @@ impl Row {
             peduncle_direction_error_deg: None,
             peduncle_disagreement_deg: None,
             true_axis_error_deg: None,
+            manual_error_deg: None,
+            annotators: String::new(),
             warnings: String::new(),
             failure: Some(failure),
+            tags: String::new(),
+            note: String::new(),
         }
     }
 
     /// The row of a cloud that was examined.
     pub fn of(file: &str, examined: &Examined, choice: TruthChoice) -> Self {
-        let analysis = &examined.analysis;
-        let used = analysis.surface.len();
-        let axis = analysis.axis.as_ref();
-        let truth = reference_of(&examined.references, choice);
-        let error_to = |reference: &AxisEstimate| axis.map(|a| axis_error_rad(a, reference).to_degrees());
-        let error_to_source = |source: AxisSource| {
-            let reference = examined.references.iter().find(|r| r.source == source);
-            reference.and_then(error_to)
-        };
-        let best = analysis.best.ok();
-        let partners = best.and_then(|b| {
-            let index = analysis.planes.grid.index_of(b.candidate.g, b.candidate.h)?;
-            Some(analysis.planes.terms[index].partners)
-        });
-        let failure = match (axis, truth) {
-            (None, _) => Some("there is no symmetry axis".into()),
-            (_, None) => Some("there is no reference axis".into()),
-            _ => None,
-        };
-        Self {
-            file: file.into(),
-            sha256: Some(examined.fruit.file.sha256.clone()),
-            points: Some(examined.fruit.cloud().len() as u64),
-            used_points: Some(used as u64),
-            unit: Some(examined.fruit.unit),
-            center: Some(analysis.center.to_array()),
-            best: best.map(|b| [b.candidate.g as u64, b.candidate.h as u64]),
-            score_cm: best.map(|b| b.score_cm),
-            runner_up_score_cm: best.and_then(|b| b.runner_up).map(|(_, score)| score),
-            lead: best.and_then(|b| b.lead()),
-            partner_fraction: partners.map(|p| p as f64 / used as f64),
-            axis: axis.map(|a| a.direction.to_array()),
-            truth: truth.map(|t| t.source.name().into_owned()),
-            truth_axis: truth.map(|t| t.direction.to_array()),
-            error_deg: truth.and_then(error_to),
-            peduncle_error_deg: error_to_source(AxisSource::Peduncle),
-            peduncle_direction_error_deg: error_to_source(AxisSource::PeduncleDirection),
-            peduncle_disagreement_deg: peduncle_disagreement_deg(&examined.references),
-            true_axis_error_deg: error_to_source(AxisSource::Simulation),
-            warnings: examined.warnings.join(" "),
-            failure,
-        }
+        Outcome::of(file, examined).against(choice)
     }
 
     /// The file's name within `folder`, with forward slashes everywhere.

@@ -39,7 +39,7 @@ macro_rules! components {
 }
 
 /// Every column, in their order.
-const COLUMNS: [Column; 30] = [
+const COLUMNS: [Column; 34] = [
     ("file", |row| Value::Text(Some(row.file.clone()))),
     ("sha256", |row| Value::Text(row.sha256.clone())),
     ("points", |row| Value::Count(row.points)),
@@ -80,6 +80,10 @@ const COLUMNS: [Column; 30] = [
     }),
     ("warnings", |row| Value::Text(Some(row.warnings.clone()))),
     ("failure", |row| Value::Text(row.failure.clone())),
+    ("manual_error_deg", |row| Value::Number(row.manual_error_deg)),
+    ("annotators", |row| Value::Text(Some(row.annotators.clone()))),
+    ("tags", |row| Value::Text(Some(row.tags.clone()))),
+    ("note", |row| Value::Text(Some(row.note.clone()))),
 ];
 
 /// The rows as CSV, with a head line.

@@ -27,7 +27,7 @@ pub(crate) use line::angles_between_directions_rad;
 pub use line::{angle_between_directions_rad, angle_between_lines_rad};
 pub use neighbors::{Neighbor, Neighbors};
 pub use normals::estimate_normals;
-pub use parallel::map_pieces;
+pub use parallel::{Crew, map_pieces};
 pub use plane::Plane;
 pub use point_set::PointSet;
 pub use spread::Spread;

@@ -41,6 +41,56 @@ pub fn map_pieces<T: Send>(
     (0..pieces).map(one).collect()
 }
 
+/// Threads of one's own, beside those that everything else shares: what runs on them may wait without
+/// holding up anybody else.
+#[derive(Debug)]
+pub struct Crew {
+    #[cfg(feature = "parallel")]
+    pool: Option<rayon::ThreadPool>,
+}
+
+impl Crew {
+    /// As many threads as there are cores but one, at least one.
+    pub fn new() -> Self {
+        #[cfg(feature = "parallel")]
+        {
+            let cores = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
+            let threads = cores.saturating_sub(1).max(1);
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            Self { pool: pool.ok() }
+        }
+        #[cfg(not(feature = "parallel"))]
+        Self {}
+    }
+
+    /// Runs `work` once on each of the threads, and waits for all; on the caller's where there are none.
+    /// What it does in parallel stays on these threads.
+    pub fn each(&self, work: impl Fn() + Sync) {
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = &self.pool {
+            pool.broadcast(|_| work());
+            return;
+        }
+        work();
+    }
+
+    /// Runs `work` on one of the threads, and what it does in parallel on all of them; on the caller's
+    /// where there are none.
+    pub fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = &self.pool {
+            return pool.install(work);
+        }
+        work()
+    }
+}
+
+impl Default for Crew {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 /// Runs both, at the same time where there are cores for it.
 pub(super) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]

@@ -22,6 +22,6 @@ pub use cloud_file::{
 pub use fruit::{Fruit, FruitError, PeduncleChoice, companion_path, removed_path, truth_path};
 pub use picked::PickedPoints;
 pub use picture::{
-    PictureError, PictureSettings, SETTINGS_KEY, encode_picture, paint_annotations, picture_settings,
-    text_width_px,
+    PictureError, PictureSettings, SETTINGS_KEY, decode_picture, encode_picture, paint_annotations,
+    picture_settings, text_width_px,
 };

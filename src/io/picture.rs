@@ -114,6 +114,24 @@ pub fn picture_settings(png_bytes: &[u8]) -> Result<PictureSettings, PictureErro
     Ok(serde_json::from_str(&chunk.get_text()?)?)
 }
 
+/// The pixels of a PNG that [`encode_picture`] made; `None` where it is another, or broken.
+pub fn decode_picture(png_bytes: &[u8]) -> Option<Image> {
+    let mut reader = png::Decoder::new(Cursor::new(png_bytes)).read_info().ok()?;
+    let mut rgb = vec![0; reader.output_buffer_size()?];
+    let frame = reader.next_frame(&mut rgb).ok()?;
+    if frame.color_type != png::ColorType::Rgb || frame.bit_depth != png::BitDepth::Eight {
+        return None;
+    }
+    Some(Image {
+        width_px: frame.width,
+        height_px: frame.height,
+        rgba: rgb
+            .chunks_exact(3)
+            .flat_map(|p| [p[0], p[1], p[2], 255])
+            .collect(),
+    })
+}
+
 /// The annotations as an SVG document of the picture's size.
 fn svg_of(width_px: u32, height_px: u32, annotations: &[Annotation]) -> String {
     let mut svg =

@@ -22,6 +22,10 @@ pub enum WindowAct {
     SaveImageOf([u32; 2]),
     /// Put the equivalent command line on the clipboard.
     CopyCommandLine,
+    /// Ask where the results of all clouds are to be saved, and save them.
+    SaveResults,
+    /// Put the command line that evaluates all clouds on the clipboard.
+    CopyEvaluation,
     /// Show the keys.
     Help,
     /// Look for a command by its name.
@@ -110,7 +114,7 @@ pub struct Action {
 }
 
 impl Action {
-    fn new(group: Group, title: impl Into<String>, act: Act) -> Self {
+    pub(super) fn new(group: Group, title: impl Into<String>, act: Act) -> Self {
         Self {
             group,
             title: title.into(),
@@ -126,7 +130,7 @@ impl Action {
         Self::new(group, title, Act::App(command))
     }
 
-    fn window(title: impl Into<String>, group: Group, act: WindowAct) -> Self {
+    pub(super) fn window(title: impl Into<String>, group: Group, act: WindowAct) -> Self {
         Self::new(group, title, Act::Window(act))
     }
 
@@ -187,23 +191,24 @@ pub fn actions(state: &State) -> Vec<Action> {
     all.extend(view_actions(state));
     all.extend(style_actions(state));
     all.extend(window_actions(state));
+    all.extend(super::folder::keys::actions(state));
     all
 }
 
 fn file_actions(state: &State) -> Vec<Action> {
     use Group::File;
-    let (count, current) = (state.entries.len(), state.current);
+    let current = state.current;
     let has_look = state.look.is_some();
     let mut actions = vec![
         Action::window("Open files …", File, WindowAct::OpenFiles).key(CTRL, Key::O),
         Action::window("Open a folder …", File, WindowAct::OpenFolder).key(CTRL | SHIFT, Key::O),
         Action::app(File, "Previous cloud", Command::Go(-1))
             .key(NONE, Key::PageUp)
-            .when(current.is_some_and(|i| i > 0))
+            .when(state.neighbor(-1).is_some())
             .repeating(),
         Action::app(File, "Next cloud", Command::Go(1))
             .key(NONE, Key::PageDown)
-            .when(current.is_some_and(|i| i + 1 < count))
+            .when(state.neighbor(1).is_some())
             .repeating(),
         Action::app(File, "Read the file again", Command::Reload)
             .key(CTRL, Key::R)
@@ -490,7 +495,8 @@ fn window_actions(state: &State) -> Vec<Action> {
     actions.extend(
         Pane::ALL
             .into_iter()
-            .filter(|&pane| pane != Pane::View)
+            // Those beside the view have keys of their own.
+            .filter(|pane| !pane.has_key())
             .map(|pane| Action::window(format!("Panel: {}", pane.title()), Window, WindowAct::Show(pane))),
     );
     actions

@@ -17,6 +17,8 @@ pub(super) enum Asked {
     SaveImage(PathBuf, [u32; 2]),
     /// Something is to be done about the peduncle.
     Peduncle(PeduncleCommand),
+    /// Results are to be saved in a new folder within this one.
+    SaveResults(PathBuf),
     /// No dialog could be shown.
     Failed(String),
 }
@@ -80,6 +82,16 @@ pub(super) fn peduncle_path(ctx: &egui::Context, answers: &Sender<Asked>, wanted
             });
         }
     }
+}
+
+/// Asks for the folder in which a new one gets the results.
+pub(super) fn save_results(ctx: &egui::Context, answers: &Sender<Asked>) {
+    let answer = AsyncFileDialog::new()
+        .set_title("Save the results in a new folder within")
+        .pick_folder();
+    wait(ctx, answers, async move {
+        Some(Asked::SaveResults(path_of(&answer.await?)))
+    });
 }
 
 /// What is said where the desktop has no dialogs; that is not told apart from a refusal otherwise.

@@ -48,18 +48,18 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<F
 fn steps(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let (count, current) = (state.entries.len(), state.current);
     ui.horizontal(|ui| {
-        let can_go_back = current.is_some_and(|place| place > 0);
-        let can_go_on = current.is_some_and(|place| place + 1 < count);
+        let can_go_back = state.neighbor(-1).is_some();
+        let can_go_on = state.neighbor(1).is_some();
         if ui
             .add_enabled(can_go_back, Button::new("Previous"))
-            .on_hover_text("The cloud above, seen from where this one is seen.")
+            .on_hover_text("The cloud before, as the table has them, seen from where this one is seen.")
             .clicked()
         {
             commands.push(Command::Go(-1));
         }
         if ui
             .add_enabled(can_go_on, Button::new("Next"))
-            .on_hover_text("The cloud below, seen from where this one is seen.")
+            .on_hover_text("The next cloud, as the table has them, seen from where this one is seen.")
             .clicked()
         {
             commands.push(Command::Go(1));

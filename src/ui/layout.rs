@@ -22,11 +22,19 @@ pub enum Pane {
     Point,
     /// How the contributions are spread.
     Contributions,
+    /// The open clouds as a table.
+    Table,
+    /// Their errors as charts.
+    Charts,
+    /// Their pictures, worst first.
+    Gallery,
+    /// The mean error over u and τ.
+    Sweep,
 }
 
 impl Pane {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 12] = [
         Self::View,
         Self::Files,
         Self::Parameters,
@@ -35,7 +43,19 @@ impl Pane {
         Self::Ranking,
         Self::Point,
         Self::Contributions,
+        Self::Table,
+        Self::Charts,
+        Self::Gallery,
+        Self::Sweep,
     ];
+
+    /// Whether a key brings it to the front.
+    pub(super) fn has_key(self) -> bool {
+        matches!(
+            self,
+            Self::View | Self::Table | Self::Charts | Self::Gallery | Self::Sweep
+        )
+    }
 
     /// What its tab says.
     pub fn title(self) -> &'static str {
@@ -48,6 +68,10 @@ impl Pane {
             Self::Ranking => "Ranking",
             Self::Point => "Why this score?",
             Self::Contributions => "Contributions",
+            Self::Table => "Table",
+            Self::Charts => "Charts",
+            Self::Gallery => "Gallery",
+            Self::Sweep => "Sweep",
         }
     }
 }
@@ -71,6 +95,10 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
         ranking,
         point,
         contributions,
+        table,
+        charts,
+        gallery,
+        sweep,
     ] = Pane::ALL.map(|pane| tiles.insert_pane(pane));
     let left = tiles.insert_tab_tile(vec![parameters, files]);
     let above = tiles.insert_tab_tile(vec![map, hemisphere]);
@@ -92,7 +120,7 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
         LinearDir::Vertical,
         &[(above, 1.25), (middle, 0.8), (below, 1.0)],
     );
-    let view_tabs = tiles.insert_tab_tile(vec![view]);
+    let view_tabs = view_tabs(&mut tiles, vec![view, table, charts, gallery, sweep]);
     let root = linear(
         &mut tiles,
         LinearDir::Horizontal,
@@ -117,6 +145,10 @@ fn narrow_layout() -> Tree<Pane> {
         ranking,
         point,
         contributions,
+        table,
+        charts,
+        gallery,
+        sweep,
     ] = Pane::ALL.map(|pane| tiles.insert_pane(pane));
     let above = tiles.insert_tab_tile(vec![parameters, files, point, contributions]);
     let below = tiles.insert_tab_tile(vec![map, hemisphere, ranking]);
@@ -126,13 +158,23 @@ fn narrow_layout() -> Tree<Pane> {
         }
     }
     let left = linear(&mut tiles, LinearDir::Vertical, &[(above, 1.0), (below, 1.0)]);
-    let view_tabs = tiles.insert_tab_tile(vec![view]);
+    let view_tabs = view_tabs(&mut tiles, vec![view, table, charts, gallery, sweep]);
     let root = linear(
         &mut tiles,
         LinearDir::Horizontal,
         &[(left, 0.66), (view_tabs, 1.0)],
     );
     Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+/// The view, with what shows all clouds behind it.
+fn view_tabs(tiles: &mut Tiles<Pane>, panes: Vec<TileId>) -> TileId {
+    let view = panes[0];
+    let id = tiles.insert_tab_tile(panes);
+    if let Some(egui_tiles::Tile::Container(Container::Tabs(tabs))) = tiles.get_mut(id) {
+        tabs.set_active(view);
+    }
+    id
 }
 
 fn linear(tiles: &mut Tiles<Pane>, dir: LinearDir, children: &[(TileId, f32)]) -> TileId {

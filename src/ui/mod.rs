@@ -8,6 +8,7 @@ pub mod contributions;
 mod controls;
 mod dialogs;
 pub mod files;
+pub mod folder;
 mod help;
 pub mod hemisphere;
 mod layout;

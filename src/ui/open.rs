@@ -31,6 +31,12 @@ pub fn session_path() -> Option<PathBuf> {
     Some(folders.config_dir().join("session.json"))
 }
 
+/// Where this desktop keeps what can be worked out again; `None` where there is no home.
+fn cache_path() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "axiscope")?;
+    Some(folders.cache_dir().join("clouds"))
+}
+
 /// Opens a window on `paths`, or on what was open last, or on a sample; returns when it is closed.
 ///
 /// # Errors
@@ -71,7 +77,10 @@ pub fn open_window(paths: Vec<PathBuf>) -> Result<(), OpenError> {
         "Axiscope",
         options,
         Box::new(|context| {
-            let window = Window::new(context, start)?;
+            let mut window = Window::new(context, start)?;
+            if let Some(folder) = cache_path() {
+                window.app_mut().keep_rows_in(folder);
+            }
             Ok(Box::new(window))
         }),
     )

@@ -5,6 +5,7 @@ use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse
 
 use super::actions::{Act, Action, WindowAct};
 use super::files::{self, FilesAnswer};
+use super::folder::{self, FolderAnswer};
 use super::layout::Pane;
 use super::{
     contributions, hemisphere, parameters, peduncle, point, ranking, score_map, scrub, view_bar, view3d,
@@ -105,6 +106,15 @@ impl Panes<'_> {
                 });
             }
             Pane::Contributions => contributions::show(ui, state, commands),
+            Pane::Table | Pane::Charts | Pane::Gallery | Pane::Sweep => {
+                if let Some(answer) = folder::show(ui, pane, state, commands) {
+                    self.acts.push(Act::Window(match answer {
+                        FolderAnswer::ShowView => WindowAct::Show(Pane::View),
+                        FolderAnswer::SaveResults => WindowAct::SaveResults,
+                        FolderAnswer::CopyCommandLine => WindowAct::CopyEvaluation,
+                    }));
+                }
+            }
         }
     }
 }

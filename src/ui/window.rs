@@ -17,6 +17,7 @@ use super::panes::Panes;
 use super::save_image::{self, SaveImage};
 use super::scrub::walks_by_rank;
 use super::{help, menu, peduncle, status, theme};
+use crate::app::folder::{FolderCommand, evaluate_command_line};
 use crate::app::worker::Repaint;
 use crate::app::{App, Command, PeduncleCommand, Session, command_line, quoted};
 use crate::io::companion_path;
@@ -242,6 +243,7 @@ impl Window {
                 Asked::Open(paths) => Command::Open(paths),
                 Asked::SaveImage(path, size_px) => Command::SaveImage { path, size_px },
                 Asked::Peduncle(command) => Command::Peduncle(command),
+                Asked::SaveResults(into) => Command::Folder(FolderCommand::SaveResults(into)),
                 Asked::Failed(text) => Command::Say { is_error: true, text },
             }));
         }
@@ -332,6 +334,16 @@ impl Window {
                     text,
                 });
             }
+            WindowAct::SaveResults => dialogs::save_results(ctx, &answers),
+            WindowAct::CopyEvaluation => {
+                if let Some(words) = evaluate_command_line(self.app.state()) {
+                    ctx.copy_text(quoted(&words));
+                    self.app.apply(Command::Say {
+                        is_error: false,
+                        text: "Copied the command line that evaluates these clouds.".into(),
+                    });
+                }
+            }
             WindowAct::Help => self.is_help_open = true,
             WindowAct::About => self.is_about_open = true,
             WindowAct::Palette => self.palette = Some(Palette::default()),
@@ -403,8 +415,10 @@ impl eframe::App for Window {
             ctx.request_repaint();
         } else if state.progress.is_some() {
             ctx.request_repaint_after(Duration::from_millis(80));
-        } else if self.app.is_busy() {
+        } else if self.app.is_current_busy() {
             ctx.request_repaint_after(Duration::from_millis(5));
+        } else if self.app.is_busy() {
+            ctx.request_repaint_after(Duration::from_millis(100));
         }
         let title = match state.source() {
             Some(source) => format!("{} – Axiscope", source.name()),

@@ -1,10 +1,6 @@
 //! `axiscope evaluate`: a folder of clouds, each compared with its reference.
 
 mod both;
-mod figures;
-mod html;
-#[cfg(feature = "window")]
-mod pictures;
 mod store;
 mod sweep;
 
@@ -13,7 +9,8 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::Context;
-use axiscope::evaluate::{Row, Summary, Sweep, TruthChoice, csv, parquet};
+use axiscope::app::folder::{add_tags, read_tags};
+use axiscope::evaluate::{Row, Summary, Sweep, TruthChoice, result_files};
 use axiscope::geometry::{Watch, map_pieces};
 use clap::{Args, ValueEnum};
 
@@ -115,38 +112,23 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
         eprintln!("Warning: a later --resume will not find every row: {problem}");
     }
 
-    let rows: Vec<Row> = stored.iter().map(|s| s.row.clone()).collect();
+    let mut rows: Vec<Row> = stored.iter().map(|s| s.row.clone()).collect();
+    match read_tags(&args.folder) {
+        Ok(tags) => add_tags(&mut rows, &tags),
+        Err(problem) => eprintln!("Warning: {problem}"),
+    }
     let summary = Summary::of(&rows);
-    let save = |name: &str, bytes: &[u8]| {
-        let path = args.out.join(name);
-        std::fs::write(&path, bytes).with_context(|| path.display().to_string())
-    };
-    save("results.csv", &csv(&rows)?)?;
-    save("results.parquet", &parquet(&rows)?)?;
-    save(
-        "summary.json",
-        (serde_json::to_string_pretty(&summary)? + "\n").as_bytes(),
-    )?;
-    let mut figures = figures::of_rows(&rows);
-    if let Some(settings) = sweep {
+    let map = sweep.map(|settings| {
         let mut map = Sweep::new(settings);
         for errors_deg in stored.iter().filter_map(|s| s.sweep_deg.as_ref()) {
             map.add(errors_deg);
         }
-        save("sweep.csv", &sweep::table(&map)?)?;
-        figures.push(("sweep", figures::of_sweep(&map)));
-    }
-    let mut drawn = Vec::new();
-    for (name, figure) in figures {
-        // A set without a single error has nothing to draw.
-        let Ok(svg) = figure.svg() else { continue };
-        save(&format!("{name}.svg"), svg.as_bytes())?;
-        save(&format!("{name}.png"), &figure.png(1.0)?)?;
-        drawn.push(svg);
-    }
+        map
+    });
     #[cfg(feature = "window")]
     let pictures = {
-        let (pictures, problem) = pictures::of_worst(&args.folder, &rows, &request, args.pictures);
+        let (pictures, problem) =
+            axiscope::app::folder::pictures_of_worst(&args.folder, &rows, &request, args.pictures);
         if let Some(problem) = problem {
             eprintln!("Warning: {problem}");
         }
@@ -154,8 +136,10 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     };
     #[cfg(not(feature = "window"))]
     let pictures = Vec::new();
-    let page = html::report(&args.folder, &request, &rows, &summary, &drawn, &pictures);
-    save("report.html", page.as_bytes())?;
+    for (name, bytes) in result_files(&args.folder, &request, &rows, map.as_ref(), &pictures)? {
+        let path = args.out.join(name);
+        std::fs::write(&path, bytes).with_context(|| path.display().to_string())?;
+    }
     write_summary(&mut std::io::stdout().lock(), &summary)?;
     eprintln!(
         "Wrote results, summary, figures and report.html to {}.",
@@ -164,22 +148,9 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Every cloud in the folder, by name. A companion that holds a peduncle alone is no cloud of its own.
+/// Every cloud in the folder, of which there is at least one.
 pub(super) fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
-    let entries = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
-    let mut clouds = Vec::new();
-    for entry in entries {
-        let path = entry.with_context(|| folder.display().to_string())?.path();
-        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply")) && !path.is_dir() {
-            clouds.push(path);
-        }
-    }
-    let companions: Vec<PathBuf> = clouds
-        .iter()
-        .map(|path| axiscope::io::companion_path(path))
-        .collect();
-    clouds.retain(|path| !companions.contains(path));
-    clouds.sort();
+    let clouds = axiscope::evaluate::clouds_in(folder).with_context(|| folder.display().to_string())?;
     anyhow::ensure!(
         !clouds.is_empty(),
         "{}: there are no PLY files in this folder",

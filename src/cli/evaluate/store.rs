@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use anyhow::Context;
-use axiscope::evaluate::{Request, Row, SweepSettings, TruthChoice, examine, sentence, sweep_cloud};
-use axiscope::io::{
-    Fruit, PeduncleChoice, annotation_paths, companion_path, removed_path, sha256_hex, truth_path,
+use axiscope::evaluate::{
+    Outcome, Request, Row, SweepSettings, TruthChoice, files_behind, sentence, sweep_cloud,
 };
+use axiscope::io::{annotation_paths, sha256_hex};
 use serde::{Deserialize, Serialize};
 
 /// What is kept of one cloud.
@@ -79,11 +79,7 @@ impl<'a> Store<'a> {
             "{} {name} {request:?} {choice:?} {sweep:?}",
             env!("CARGO_PKG_VERSION")
         );
-        let mut files = vec![path.to_path_buf(), companion_path(path), truth_path(path)];
-        if let PeduncleChoice::Removed(folder) = &request.peduncle {
-            files.push(removed_path(path, folder));
-        }
-        files.extend(annotation_paths(path));
+        let files = files_behind(path, request, &annotation_paths(path));
         for file in files {
             // Reading a pipe would wait for somebody to write into it.
             let bytes = file.is_file().then(|| std::fs::read(file).ok()).flatten();
@@ -106,22 +102,16 @@ impl<'a> Store<'a> {
     }
 
     fn work_out(&self, name: &str, path: &Path) -> Stored {
-        let failed = |reason: String| Stored {
-            row: Row::failed(name, reason),
-            sweep_deg: None,
-        };
-        let fruit = match Fruit::read(path, self.request.unit, &self.request.peduncle) {
-            Ok(fruit) => fruit,
-            Err(error) => return failed(error.reason()),
-        };
-        let examined = match examine(fruit, self.request, &()) {
-            Ok(examined) => examined,
-            Err(error) => return failed(error.to_string()),
+        // Nobody calls it off.
+        let (outcome, examined) = Outcome::of_file(name, path, self.request, &())
+            .unwrap_or_else(|cancelled| (Outcome::failed(name, cancelled.to_string()), None));
+        let mut row = outcome.against(self.choice);
+        let Some(examined) = examined else {
+            return Stored { row, sweep_deg: None };
         };
         let sweep_deg = self
             .sweep
             .map(|settings| sweep_cloud(&examined, self.choice, settings, &()));
-        let mut row = Row::of(name, &examined, self.choice);
         let sweep_deg = match sweep_deg.transpose() {
             Ok(errors) => errors,
             Err(error) => {

@@ -2,9 +2,8 @@
 
 use std::str::FromStr;
 
-use axiscope::evaluate::{Sweep, SweepSettings};
+use axiscope::evaluate::SweepSettings;
 use axiscope::method::TAU_CM_PER_RAD;
-use serde::Serialize;
 
 use crate::cli::options::{grid_size, range};
 use crate::cli::usage_error;
@@ -61,30 +60,4 @@ impl SweepOption {
             tau_cm_per_rad: tau_range.unwrap_or_else(|| vec![tau.unwrap_or(TAU_CM_PER_RAD)]),
         }))
     }
-}
-
-/// One row of `sweep.csv`.
-#[derive(Serialize)]
-struct SweepRow {
-    u: usize,
-    tau_cm_per_rad: f64,
-    clouds: usize,
-    mean_error_deg: Option<f64>,
-}
-
-/// The map as CSV.
-pub(super) fn table(map: &Sweep) -> anyhow::Result<Vec<u8>> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    for (i, &u) in map.settings.u.iter().enumerate() {
-        for (j, &tau_cm_per_rad) in map.settings.tau_cm_per_rad.iter().enumerate() {
-            let (mean_error_deg, clouds) = map.cell(i, j);
-            table.serialize(SweepRow {
-                u,
-                tau_cm_per_rad,
-                clouds,
-                mean_error_deg,
-            })?;
-        }
-    }
-    Ok(table.into_inner()?)
 }

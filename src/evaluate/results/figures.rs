@@ -1,7 +1,7 @@
 //! Charts of an evaluation: the error per cloud, its distribution, and against what it may depend on.
 
-use axiscope::evaluate::{Row, Sweep};
-use axiscope::io::figures::{
+use crate::evaluate::{Row, Sweep};
+use crate::io::figures::{
     BarChart, BarSeries, Figure, Guide, Heatmap, Histogram, Labels, Scatter, ScatterSeries,
 };
 

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use axiscope::evaluate::{Request, Row, Summary};
+use super::{WorstPicture, worst_first};
+use crate::evaluate::{Request, Row, Summary};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
@@ -32,16 +33,6 @@ pub(super) fn report(
         .and_then(|()| write_pictures(&mut page, pictures))
         .and_then(|()| writeln!(page, "</body></html>"));
     page
-}
-
-/// A picture of one of the worst clouds.
-pub(super) struct WorstPicture {
-    /// The cloud's file.
-    pub(super) file: String,
-    /// Its error in degrees.
-    pub(super) error_deg: Option<f64>,
-    /// PNG bytes.
-    pub(super) png: Vec<u8>,
 }
 
 fn write(
@@ -110,16 +101,6 @@ fn write(
         writeln!(page, "<figure>{figure}</figure>")?;
     }
     Ok(())
-}
-
-/// The rows that have an error, the largest first.
-pub(super) fn worst_first(rows: &[Row]) -> Vec<&Row> {
-    let mut worst: Vec<(f64, &Row)> = rows
-        .iter()
-        .filter_map(|row| Some((row.error_deg?, row)))
-        .collect();
-    worst.sort_by(|a, b| b.0.total_cmp(&a.0));
-    worst.into_iter().map(|(_, row)| row).collect()
 }
 
 fn write_pictures(page: &mut String, pictures: &[WorstPicture]) -> std::fmt::Result {

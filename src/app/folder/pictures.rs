@@ -1,0 +1,119 @@
+//! Small pictures of clouds, for the gallery and for the report.
+
+use std::path::Path;
+
+use crate::app::{Drawing, analysis_options, draw_cloud};
+use crate::evaluate::{Examined, Request, Row, TruthChoice, WorstPicture, examine, worst_first};
+use crate::io::{Fruit, PictureSettings, encode_picture};
+use crate::render::{Gpu, Image, Projection};
+use crate::view::{Coloring, Overlays, Theme, ViewPreset};
+
+/// The size of the report's pictures, in pixels.
+const REPORT_PX: [u32; 2] = [560, 420];
+const OVERLAYS: &str = "plane,axis,reference";
+
+/// Pictures of the `count` worst clouds, the worst first. A sentence instead where one cannot be drawn: a
+/// report without pictures is better than none.
+pub fn pictures_of_worst(
+    folder: &Path,
+    rows: &[Row],
+    request: &Request,
+    count: usize,
+) -> (Vec<WorstPicture>, Option<String>) {
+    let worst = worst_first(rows);
+    let mut pictures = Vec::new();
+    if worst.is_empty() || count == 0 {
+        return (pictures, None);
+    }
+    let gpu = match Gpu::headless() {
+        Ok(gpu) => gpu,
+        Err(error) => return (pictures, Some(format!("The report has no pictures: {error}."))),
+    };
+    for row in worst.into_iter().take(count) {
+        match report_picture(&folder.join(&row.file), row, request, &gpu) {
+            Ok(png) => pictures.push(WorstPicture {
+                file: row.file.clone(),
+                error_deg: row.error_deg,
+                png,
+            }),
+            Err(error) => return (pictures, Some(format!("The report lacks pictures: {error}."))),
+        }
+    }
+    (pictures, None)
+}
+
+/// A picture that carries the command line that draws it again.
+fn report_picture(path: &Path, row: &Row, request: &Request, gpu: &Gpu) -> Result<Vec<u8>, String> {
+    let named = || path.display().to_string();
+    let fruit = Fruit::read(path, request.unit, &request.peduncle).map_err(|e| e.to_string())?;
+    let examined = examine(fruit, request, &()).map_err(|e| format!("{}: {e}", named()))?;
+    let reference = reference_of_row(row.truth.as_deref());
+    let image = picture(&examined, reference, REPORT_PX, Theme::Light, gpu)?;
+    let word = match reference {
+        TruthChoice::Truth => "truth",
+        TruthChoice::Manual => "manual",
+        TruthChoice::PeduncleDirection => "peduncle-direction",
+        _ => "peduncle",
+    };
+    let [width, height] = REPORT_PX;
+    let mut arguments: Vec<String> = ["render".into(), named(), "-o".into(), "picture.png".into()].into();
+    let size = format!("{width}x{height}");
+    let look = [
+        "--size",
+        &size,
+        "--background",
+        "light",
+        "--overlays",
+        OVERLAYS,
+        "--reference",
+        word,
+    ];
+    arguments.extend(look.map(String::from));
+    arguments.extend(analysis_options(request));
+    let settings = PictureSettings {
+        version: env!("CARGO_PKG_VERSION").into(),
+        arguments,
+        cloud: named(),
+        sha256: examined.fruit.file.sha256.clone(),
+    };
+    encode_picture(&image, &settings).map_err(|e| format!("{}: {e}", named()))
+}
+
+/// The reference that a row was measured against.
+fn reference_of_row(truth: Option<&str>) -> TruthChoice {
+    match truth {
+        Some("simulation") => TruthChoice::Truth,
+        Some("peduncle") | None => TruthChoice::Peduncle,
+        Some("peduncle-direction") => TruthChoice::PeduncleDirection,
+        Some(_) => TruthChoice::Manual,
+    }
+}
+
+/// The sides of the best plane, the plane, and both axes.
+pub(super) fn picture(
+    examined: &Examined,
+    reference: TruthChoice,
+    size_px: [u32; 2],
+    theme: Theme,
+    gpu: &Gpu,
+) -> Result<Image, String> {
+    let drawing = Drawing {
+        size_px,
+        coloring: Coloring::Side,
+        plane: None,
+        view: ViewPreset::Camera,
+        camera: None,
+        reference,
+        // A list of the program's own.
+        overlays: OVERLAYS.parse::<Overlays>().unwrap_or_default(),
+        theme,
+        point_size_px: None,
+        projection: Projection::Perspective,
+        is_shaded: true,
+        // A small picture has no room for words.
+        has_angle: size_px == REPORT_PX,
+    };
+    let path = &examined.fruit.file.path;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    draw_cloud(examined, &drawing, &name, gpu).map_err(|error| format!("{}: {error}", path.display()))
+}

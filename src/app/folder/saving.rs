@@ -1,0 +1,187 @@
+//! The results of the open clouds as files, the same that `axiscope evaluate` writes, and the command that does.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::app::state::State;
+use crate::app::{App, analysis_options};
+use crate::evaluate::{Request, Row, Sweep, TruthChoice, WorstPicture, result_files};
+
+/// Clouds that the report shows pictures of.
+#[cfg(feature = "window")]
+const PICTURES: usize = 12;
+/// What the folder for results is called.
+const FOLDER: &str = "axiscope-results";
+
+impl State {
+    /// The innermost folder that all open files lie in.
+    fn common_folder(&self) -> Option<PathBuf> {
+        let mut folders = self
+            .folder
+            .rows
+            .iter()
+            .filter_map(|row| row.path.as_deref()?.parent());
+        let first = folders.next()?.to_owned();
+        Some(folders.fold(first, |common, folder| {
+            let shared = common.components().zip(folder.components());
+            shared.take_while(|(a, b)| a == b).map(|(a, _)| a).collect()
+        }))
+    }
+
+    /// The rows of the open files against the chosen reference, with their tags; `None` where one has still
+    /// to be evaluated.
+    fn result_rows(&self, folder: &Path) -> Option<Vec<Row>> {
+        let rows = self.folder.rows.iter();
+        rows.filter_map(|row| Some((row, row.path.as_ref()?)))
+            .map(|(row, path)| {
+                let outcome = row.outcome.as_ref().filter(|_| !row.is_stale)?;
+                Some(Row {
+                    file: Row::name_in(folder, path),
+                    tags: row.tagged.tags.join(", "),
+                    note: row.tagged.note.clone(),
+                    ..outcome.against(self.folder.against)
+                })
+            })
+            .collect()
+    }
+}
+
+/// The command line that evaluates the folder of the open clouds in the same way; `None` where no file is open.
+pub fn evaluate_command_line(state: &State) -> Option<Vec<String>> {
+    let folder = state.common_folder()?;
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        &folder
+    };
+    let mut words: Vec<String> = ["axiscope".into(), "evaluate".into(), folder.display().to_string()].into();
+    let truth = match state.folder.against {
+        TruthChoice::Auto => None,
+        TruthChoice::Peduncle => Some("peduncle"),
+        TruthChoice::PeduncleDirection => Some("peduncle-direction"),
+        TruthChoice::Manual => Some("manual"),
+        TruthChoice::Truth => Some("truth"),
+    };
+    if let Some(truth) = truth {
+        words.extend(["--truth".into(), truth.into()]);
+    }
+    words.extend(["--out".into(), FOLDER.into()]);
+    words.extend(analysis_options(&state.settings.request));
+    if state.folder.sweep.map.is_some() {
+        let wish = &state.folder.sweep.wish;
+        let ([from, to], [low, high]) = (wish.u, wish.tau_cm_per_rad);
+        words.push("--sweep".into());
+        words.push(format!("u={from}..{to}:{}", wish.u_step));
+        words.push(format!("tau={low}..{high}:{}", wish.tau_step_cm_per_rad));
+    }
+    Some(words)
+}
+
+/// Everything that results are made of.
+struct Task {
+    clouds: PathBuf,
+    request: Request,
+    rows: Vec<Row>,
+    sweep: Option<Sweep>,
+    /// Where the folder for them goes.
+    into: PathBuf,
+}
+
+impl App {
+    /// Saves the results in a new folder within `into`.
+    pub(super) fn save_results(&mut self, into: PathBuf) {
+        let Some(clouds) = self.state.common_folder() else {
+            self.say(false, "There is no open file to save results of.".into());
+            return;
+        };
+        let Some(rows) = self.state.result_rows(&clouds) else {
+            self.say(
+                false,
+                "Results are saved once all open clouds are evaluated with the parameters in force.".into(),
+            );
+            return;
+        };
+        let sweep = &self.state.folder.sweep;
+        let is_whole = !sweep.is_stale && sweep.progress.is_none() && !sweep.wish.only_current;
+        let task = Task {
+            clouds,
+            request: self.state.settings.request.clone(),
+            rows,
+            sweep: sweep.map.as_deref().filter(|_| is_whole).cloned(),
+            into,
+        };
+        self.folder.results.submit(move |_| save(&task));
+    }
+
+    pub(super) fn update_results(&mut self) {
+        if let Some((_, result)) = self.folder.results.take() {
+            let (is_error, text) = match result {
+                Ok(Ok(done)) => (false, done),
+                Ok(Err(problem)) => (true, problem),
+                Err(crash) => (true, crate::evaluate::sentence(&crash.to_string())),
+            };
+            self.say(is_error, text);
+        }
+    }
+}
+
+fn save(task: &Task) -> Result<String, String> {
+    let (pictures, lack) = pictures(task);
+    let files = result_files(
+        &task.clouds,
+        &task.request,
+        &task.rows,
+        task.sweep.as_ref(),
+        &pictures,
+    )
+    .map_err(|error| format!("The results could not be made: {error}."))?;
+    let folder = new_folder(&task.into).map_err(|error| format!("{}: {error}.", task.into.display()))?;
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).map_err(|error| format!("{}: {error}.", path.display()))?;
+    }
+    let lack = lack.map(|lack| format!(" {lack}")).unwrap_or_default();
+    Ok(format!(
+        "Saved the results of {} clouds in {}.{lack}",
+        task.rows.len(),
+        folder.display()
+    ))
+}
+
+/// A folder that was not there: nothing is written over.
+fn new_folder(into: &Path) -> std::io::Result<PathBuf> {
+    let mut count = 1;
+    loop {
+        let name = if count == 1 {
+            FOLDER.to_owned()
+        } else {
+            format!("{FOLDER}-{count}")
+        };
+        let folder = into.join(name);
+        match std::fs::create_dir(&folder) {
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => count += 1,
+            result => return result.map(|()| folder),
+        }
+    }
+}
+
+#[cfg(feature = "window")]
+fn pictures(task: &Task) -> (Vec<WorstPicture>, Option<String>) {
+    super::pictures_of_worst(&task.clouds, &task.rows, &task.request, PICTURES)
+}
+
+/// Without a renderer there are no pictures.
+#[cfg(not(feature = "window"))]
+fn pictures(_: &Task) -> (Vec<WorstPicture>, Option<String>) {
+    (Vec::new(), None)
+}
+
+/// Writes what is tagged and noted in the folder into the rows of its clouds.
+pub fn add_tags(rows: &mut [Row], tags: &BTreeMap<String, super::Tagged>) {
+    for row in rows {
+        if let Some(tagged) = tags.get(&row.file) {
+            row.tags = tagged.tags.join(", ");
+            row.note.clone_from(&tagged.note);
+        }
+    }
+}

@@ -1,0 +1,476 @@
+//! What the set of clouds does once a frame, and when something is asked of it.
+
+use std::collections::{BTreeSet, HashMap};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use super::run::{Found, Task, name_of, run};
+use super::tags::Answer;
+use super::{EVALUATED_AT_ONCE, Filter, FolderCommand, FolderProgress, TableRow, TagEdit, Tagged, ordered};
+use crate::app::state::State;
+use crate::app::{App, Source};
+use crate::evaluate::Outcome;
+
+/// Parameters that have rested so long are looked up for all clouds.
+const CALM: Duration = Duration::from_millis(300);
+
+impl App {
+    /// Keeps rows in a folder, so that they need not be worked out again the next time.
+    pub fn keep_rows_in(&mut self, folder: PathBuf) {
+        self.folder.background.cache().keep_in(folder);
+        self.look_up();
+    }
+
+    /// How many files were read in the background to know their hash: for tests of the cache.
+    #[doc(hidden)]
+    pub fn background_reads(&self) -> usize {
+        self.folder.background.cache().reads()
+    }
+
+    /// The list of open clouds has changed. A folder that is not too large is evaluated at once.
+    pub(in crate::app) fn list_changed(&mut self, opened_folder: bool) {
+        self.folder.wants_all |= opened_folder && self.state.entries.len() <= EVALUATED_AT_ONCE;
+        self.take_list();
+    }
+
+    /// Once a frame, before the current cloud is asked for.
+    pub(in crate::app) fn update_folder(&mut self, elapsed: Duration) {
+        self.notice_parameters(elapsed);
+        self.take_found();
+        self.take_tags();
+        self.update_pictures();
+        self.update_sweep();
+        self.update_results();
+        let problem = self.folder.background.cache().take_problem();
+        if let Some(problem) = problem {
+            self.say(true, problem);
+        }
+    }
+
+    /// Whether the current cloud is being worked on: the background waits while it is.
+    pub(in crate::app) fn stand_aside(&self, is_in_the_way: bool) {
+        let flag = &self.folder.background.is_in_the_way;
+        flag.store(is_in_the_way, Ordering::Relaxed);
+    }
+
+    /// Does what is asked.
+    pub(in crate::app) fn apply_folder(&mut self, command: FolderCommand) {
+        match command {
+            FolderCommand::Evaluate => {
+                self.folder.wants_all = true;
+                self.look_up();
+            }
+            FolderCommand::Cancel => {
+                self.folder.lane.cancel();
+                self.folder.expected.clear();
+                self.folder.wants_all = false;
+                self.folder.is_evaluating = false;
+                self.state.folder.progress = None;
+                self.state.folder.was_cancelled = true;
+            }
+            FolderCommand::Sort(sort) => {
+                self.state.folder.sort = sort;
+                self.reorder();
+            }
+            FolderCommand::Filter(filter) => {
+                self.state.folder.filter = *filter;
+                self.reorder();
+            }
+            FolderCommand::Against(choice) => {
+                self.state.folder.against = choice;
+                self.reorder();
+            }
+            FolderCommand::GoWorse(by) => self.go_worse(by),
+            FolderCommand::Picture(places) => self.want_pictures(&places),
+            FolderCommand::Wish(wish) => self.state.folder.sweep.wish = *wish,
+            FolderCommand::Sweep => self.sweep(),
+            FolderCommand::SaveResults(into) => self.save_results(into),
+            FolderCommand::CancelSweep => self.cancel_sweep(),
+            FolderCommand::OpenSetting { u, tau_cm_per_rad } => {
+                let mut request = self.state.settings.request.clone();
+                request.params.u = u;
+                request.params.tau_cm_per_rad = tau_cm_per_rad;
+                self.set(request, None);
+            }
+            FolderCommand::Tag { place, tagged } => self.tag(place, tagged),
+        }
+    }
+
+    /// Of the clouds that the table shows, the one whose error is the next larger or smaller.
+    fn go_worse(&mut self, by: isize) {
+        let folder = &self.state.folder;
+        let error = |place: usize| folder.rows[place].error_deg(folder.against);
+        let mut ranked: Vec<(f64, usize)> = folder
+            .order
+            .iter()
+            .filter_map(|&place| Some((error(place)?, place)))
+            .collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let Some(last) = ranked.len().checked_sub(1) else {
+            self.say(false, "No cloud has an error against this reference yet.".into());
+            return;
+        };
+        let current = self.state.current;
+        let to = match ranked.iter().position(|&(_, place)| Some(place) == current) {
+            Some(at) => at.checked_add_signed(by).map_or(0, |to| to.min(last)),
+            None if by > 0 => last,
+            None => 0,
+        };
+        let place = ranked[to].1;
+        self.apply(crate::app::Command::Show(place));
+    }
+
+    /// Makes the rows those of the list; what is known of a cloud stays.
+    fn take_list(&mut self) {
+        let before = std::mem::take(&mut self.state.folder.rows);
+        let mut known: HashMap<(String, Option<PathBuf>), &TableRow> = before
+            .iter()
+            .map(|row| ((row.name.clone(), row.path.clone()), row))
+            .collect();
+        let entries = self.state.entries.iter().enumerate();
+        let rows: Vec<TableRow> = entries
+            .map(|(place, entry)| {
+                let path = match &entry.source {
+                    Source::File(path) => Some(path.clone()),
+                    Source::Bundled(_) => None,
+                };
+                let name = entry.source.name();
+                match known.remove(&(name.clone(), path.clone())) {
+                    Some(row) => {
+                        let mut row = row.clone();
+                        row.write_cells(place);
+                        row
+                    }
+                    None => TableRow::new(place, name, path),
+                }
+            })
+            .collect();
+        let places = rows.iter().enumerate();
+        self.folder.places = places
+            .filter_map(|(place, row)| Some((row.path.clone()?, place)))
+            .collect();
+        let folders: BTreeSet<PathBuf> = rows
+            .iter()
+            .filter_map(|row| Some(row.path.as_deref()?.parent()?.to_owned()))
+            .collect();
+        self.state.folder.rows = Arc::new(rows);
+        for folder in folders {
+            if self.folder.tags_read.insert(folder.clone()) {
+                self.folder.scribe.read(folder);
+            }
+        }
+        self.look_up();
+        self.reorder();
+    }
+
+    /// Asks the cache for all clouds, or evaluates them where that is wanted, as soon as nothing else is
+    /// under way. A single cloud is the current one, and needs no more.
+    fn look_up(&mut self) {
+        if self.state.folder.rows.len() > 1 {
+            self.folder.rested = Some(CALM);
+        }
+    }
+
+    /// Rows of other parameters than those in force are marked; once the parameters rest, all clouds are
+    /// looked up, and evaluated where that was asked for.
+    fn notice_parameters(&mut self, elapsed: Duration) {
+        let request = &self.state.settings.request;
+        if self.folder.request.as_ref() != Some(request) {
+            let is_first = self.folder.request.is_none();
+            self.folder.request = Some(request.clone());
+            if !is_first {
+                // What was under way is of the parameters before.
+                self.folder.wants_all |= self.folder.is_evaluating;
+                self.folder.lane.cancel();
+                self.folder.expected.clear();
+                self.folder.is_evaluating = false;
+                self.state.folder.progress = None;
+                let rows = Arc::make_mut(&mut self.state.folder.rows);
+                for row in rows.iter_mut() {
+                    row.is_stale = row.outcome.is_some();
+                }
+                if self.state.folder.rows.len() > 1 {
+                    self.folder.rested = Some(Duration::ZERO);
+                }
+                self.reorder();
+            }
+        }
+        if let Some(rested) = &mut self.folder.rested {
+            *rested += elapsed;
+            if *rested >= CALM && !self.analysis.is_busy() {
+                self.folder.rested = None;
+                self.begin();
+            }
+        }
+    }
+
+    fn begin(&mut self) {
+        let only_kept = !std::mem::take(&mut self.folder.wants_all);
+        let rows = &self.state.folder.rows;
+        let clouds: Vec<PathBuf> = rows
+            .iter()
+            .filter(|row| !only_kept || row.outcome.is_none() || row.is_stale)
+            .filter_map(|row| row.path.clone())
+            .collect();
+        if clouds.is_empty() {
+            return;
+        }
+        self.folder.turn += 1;
+        self.folder.is_evaluating = !only_kept;
+        self.folder.expected = clouds.iter().cloned().collect();
+        self.folder.began = Instant::now();
+        self.folder.worked_out = 0;
+        self.state.folder.was_cancelled = false;
+        self.state.folder.progress = (!only_kept).then_some(FolderProgress {
+            done: 0,
+            total: clouds.len(),
+            left: None,
+        });
+        let task = Task {
+            turn: self.folder.turn,
+            clouds,
+            request: self.state.settings.request.clone(),
+            only_kept,
+        };
+        let (background, crew) = (self.folder.background.clone(), self.folder.crew.clone());
+        let found = self.folder.found.0.clone();
+        self.folder
+            .lane
+            .submit(move |watch| run(&task, &background, &crew, watch, &found));
+    }
+
+    fn take_found(&mut self) {
+        let mut has_changed = false;
+        let began = Instant::now();
+        let is_over = self.folder.lane.take();
+        while let Ok(found) = self.folder.found.1.try_recv() {
+            if found.turn != self.folder.turn || !self.folder.expected.remove(&found.path) {
+                continue;
+            }
+            has_changed = true;
+            self.take_row(found);
+            // The rest in the next frame: texts are made for each. Where all is over, nothing may stay.
+            if is_over.is_none() && began.elapsed() > Duration::from_millis(4) {
+                break;
+            }
+        }
+        if has_changed {
+            self.tell_progress();
+            self.reorder();
+        }
+        if let Some((_, result)) = is_over {
+            if let Err(crash) = result {
+                self.say(
+                    true,
+                    crate::evaluate::sentence(&format!("the evaluation broke off by {crash}")),
+                );
+            }
+            self.folder.is_evaluating = false;
+            self.state.folder.progress = None;
+        }
+    }
+
+    fn take_row(&mut self, found: Found) {
+        let Some(&place) = self.folder.places.get(&found.path) else {
+            return;
+        };
+        let rows = Arc::make_mut(&mut self.state.folder.rows);
+        let Some(row) = rows.get_mut(place) else { return };
+        self.folder.worked_out += usize::from(!found.was_kept && found.outcome.is_some());
+        if let Some(outcome) = found.outcome {
+            if let Some(entry) = self.state.entries.get_mut(place) {
+                let failure = outcome.row().failure.as_deref();
+                let is_unusable = outcome.row().sha256.is_none();
+                entry.problem = failure.filter(|_| is_unusable).map(crate::evaluate::sentence);
+            }
+            row.outcome = Some(outcome);
+            row.is_stale = false;
+            row.write_cells(place);
+        }
+    }
+
+    fn tell_progress(&mut self) {
+        let left_over = self.folder.expected.len();
+        let Some(progress) = &mut self.state.folder.progress else {
+            return;
+        };
+        progress.done = progress.total - left_over;
+        let worked_out = self.folder.worked_out;
+        progress.left = (worked_out > 0).then(|| {
+            let each = self.folder.began.elapsed().as_secs_f64() / worked_out as f64;
+            Duration::from_secs_f64(each * left_over as f64)
+        });
+    }
+
+    /// The current cloud's analysis is its row.
+    pub(in crate::app) fn take_current_row(&mut self) {
+        let (Some(place), Some(walked)) = (self.state.current, self.state.walked.clone()) else {
+            return;
+        };
+        let rows = &self.state.folder.rows;
+        let is_same = rows.get(place).is_some_and(|row| {
+            let path = row.path.as_ref();
+            path.is_none_or(|path| *path == walked.fruit.file.path)
+        });
+        if self.state.is_stale || !is_same {
+            return;
+        }
+        let outcome = Outcome::of_parts(
+            &self.state.folder.rows[place].name,
+            &walked.fruit,
+            &walked.analysis,
+            &self.state.references,
+            &self.state.warnings,
+        );
+        let row = &mut Arc::make_mut(&mut self.state.folder.rows)[place];
+        row.is_stale = false;
+        if row.outcome.as_deref() == Some(&outcome) {
+            return;
+        }
+        row.outcome = Some(Arc::new(outcome));
+        row.write_cells(place);
+        self.reorder();
+    }
+
+    fn reorder(&mut self) {
+        let folder = &mut self.state.folder;
+        folder.order = Arc::new(ordered(&folder.rows, folder.sort, &folder.filter, folder.against));
+        folder.missing = folder
+            .rows
+            .iter()
+            .filter(|row| row.path.is_some() && (row.outcome.is_none() || row.is_stale))
+            .count();
+        folder.generation += 1;
+    }
+
+    fn tag(&mut self, place: usize, tagged: Tagged) {
+        let Some(row) = self.state.folder.rows.get(place) else {
+            return;
+        };
+        let Some(path) = row.path.clone() else {
+            self.say(false, "A sample cannot be tagged: it is no file of yours.".into());
+            return;
+        };
+        if row.tagged == tagged {
+            return;
+        }
+        let before = row.tagged.clone();
+        self.folder.undone.clear();
+        let depth = self.history.depth();
+        let continues = self.folder.is_typing;
+        match self.folder.done.last_mut() {
+            Some(last) if continues && last.path == path && last.depth == depth => {
+                last.after = tagged.clone();
+            }
+            _ => self.folder.done.push(TagEdit {
+                path: path.clone(),
+                before,
+                after: tagged.clone(),
+                depth,
+            }),
+        }
+        self.folder.is_typing = true;
+        self.set_tagged(path, tagged);
+    }
+
+    fn set_tagged(&mut self, path: PathBuf, tagged: Tagged) {
+        if let Some(&place) = self.folder.places.get(&path) {
+            let row = &mut Arc::make_mut(&mut self.state.folder.rows)[place];
+            row.tagged = tagged.clone();
+            row.write_cells(place);
+        }
+        self.folder.scribe.write(path, tagged);
+        self.gather_tags();
+        self.reorder();
+    }
+
+    fn gather_tags(&mut self) {
+        let rows = self.state.folder.rows.iter();
+        let tags: BTreeSet<&String> = rows.flat_map(|row| &row.tagged.tags).collect();
+        self.state.folder.known_tags = Arc::new(tags.into_iter().cloned().collect());
+        let is_gone = |tag: &String| !self.state.folder.known_tags.contains(tag);
+        if self.state.folder.filter.tag.as_ref().is_some_and(is_gone) {
+            self.state.folder.filter = Filter {
+                tag: None,
+                ..self.state.folder.filter.clone()
+            };
+        }
+    }
+
+    /// The next change of tags is a step of its own.
+    pub(in crate::app) fn end_typing(&mut self) {
+        self.folder.is_typing = false;
+    }
+
+    /// Whether the last thing that was done is a change of tags, which undo takes back first.
+    pub(in crate::app) fn undo_tag(&mut self) -> bool {
+        self.folder.is_typing = false;
+        let depth = self.history.depth();
+        let Some(edit) = self.folder.done.pop_if(|edit| edit.depth >= depth) else {
+            return false;
+        };
+        self.set_tagged(edit.path.clone(), edit.before.clone());
+        self.folder.undone.push(edit);
+        true
+    }
+
+    /// Whether the next thing to be done again is a change of tags.
+    pub(in crate::app) fn redo_tag(&mut self) -> bool {
+        let depth = self.history.depth();
+        let Some(edit) = self.folder.undone.pop_if(|edit| edit.depth <= depth) else {
+            return false;
+        };
+        self.set_tagged(edit.path.clone(), edit.after.clone());
+        self.folder.done.push(edit);
+        true
+    }
+
+    pub(in crate::app) fn can_undo_tag(&self) -> bool {
+        !self.folder.done.is_empty()
+    }
+
+    pub(in crate::app) fn can_redo_tag(&self) -> bool {
+        let depth = self.history.depth();
+        self.folder.undone.last().is_some_and(|edit| edit.depth <= depth)
+    }
+
+    fn take_tags(&mut self) {
+        while let Some(answer) = self.folder.scribe.take() {
+            match answer {
+                Answer::Read(folder, Ok(mut tags)) => {
+                    let rows = Arc::make_mut(&mut self.state.folder.rows);
+                    for (place, row) in rows.iter_mut().enumerate() {
+                        let is_there = row.path.as_deref().and_then(Path::parent) == Some(&*folder);
+                        // What was said while the file was read is newer.
+                        let said = self
+                            .folder
+                            .done
+                            .iter()
+                            .any(|edit| Some(&edit.path) == row.path.as_ref());
+                        if !is_there || said {
+                            continue;
+                        }
+                        let name = row.path.as_deref().map(name_of).unwrap_or_default();
+                        if let Some(tagged) = tags.remove(&name) {
+                            row.tagged = tagged;
+                            row.write_cells(place);
+                        }
+                    }
+                    self.gather_tags();
+                    self.reorder();
+                }
+                Answer::Read(_, Err(problem)) | Answer::Written(Err(problem)) => self.say(true, problem),
+                Answer::Written(Ok(())) => {}
+            }
+        }
+    }
+}
+
+impl State {
+    /// The cloud `by` places further on, as the table has them.
+    pub fn neighbor(&self, by: isize) -> Option<usize> {
+        self.folder.neighbor(self.current?, by)
+    }
+}
