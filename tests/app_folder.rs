@@ -393,6 +393,44 @@ fn tags_that_make_no_sense_are_never_written_over() {
 }
 
 #[test]
+fn tags_that_cannot_be_saved_are_told_and_stay() {
+    let dir = TempDir::new().expect("a folder");
+    let set = dir.path().join("set");
+    write_peppers(&set, 2);
+    let mut app = opened(&set, &dir.path().join("cache"));
+    // As good as a disk that was pulled out.
+    std::fs::remove_dir_all(&set).expect("removed");
+    let tagged = Tagged::default().with_tags("late");
+    act(
+        &mut app,
+        folder(FolderCommand::Tag {
+            place: 1,
+            tagged: tagged.clone(),
+        }),
+    );
+    let mut messages = app.state().messages.iter();
+    assert!(messages.any(|m| m.is_error && m.text.contains("could not be saved")));
+    assert_eq!(app.state().folder.rows[1].tagged, tagged);
+}
+
+#[test]
+fn files_that_have_changed_are_evaluated_when_asked_again() {
+    let dir = TempDir::new().expect("a folder");
+    let set = dir.path().join("set");
+    let paths = write_peppers(&set, 2);
+    let mut app = opened(&set, &dir.path().join("cache"));
+    let before = rows(&app);
+    std::fs::remove_file(paths[1].with_extension("truth.json")).expect("removed");
+    act(&mut app, folder(FolderCommand::Evaluate));
+    let after = rows(&app);
+    assert_eq!(after[0], before[0]);
+    assert_eq!(
+        (after[1].truth.as_deref(), before[1].truth.as_deref()),
+        (Some("peduncle"), Some("simulation"))
+    );
+}
+
+#[test]
 fn another_program_s_tags_are_kept() {
     let dir = TempDir::new().expect("a folder");
     let set = dir.path().join("set");
