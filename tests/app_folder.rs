@@ -569,8 +569,16 @@ fn sort_filter_and_sweep_survive_a_restart() {
     };
     act(&mut app, folder(FolderCommand::Filter(Box::new(filter))));
     act(&mut app, folder(FolderCommand::Against(TruthChoice::Truth)));
+    assert_eq!(app.state().folder.folders, [dir.path()]);
     let path = dir.path().join("session.json");
     Session::of(app.state()).write(&path).expect("it can be kept");
+    let kept = Session::read(&path).expect("it was kept");
+    assert_eq!(kept.folder.folders(), [dir.path()]);
+    act(&mut app, Command::Close);
+    assert!(
+        Session::of(app.state()).folder.folders().is_empty(),
+        "not as a whole any more"
+    );
     let again = App::new(
         Session::read(&path).expect("it was kept"),
         &(std::sync::Arc::new(|| {}) as _),
