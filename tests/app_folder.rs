@@ -156,7 +156,14 @@ fn a_broken_line_in_the_cache_is_worked_out_again() {
 fn called_off_and_taken_up_again_is_as_unbroken() {
     let dir = TempDir::new().expect("a folder");
     let set = dir.path().join("set");
-    write_peppers(&set, 8);
+    // So many that some are left however many cores there are.
+    let small = write_peppers(&set, 6).remove(5);
+    let bytes = std::fs::read(&small).expect("there");
+    for copy in 0..34 {
+        let text = format!("ply\ncomment {copy}\n").into_bytes();
+        let other = [&text, &bytes[4..]].concat();
+        std::fs::write(set.join(format!("copy_{copy:02}.ply")), other).expect("written");
+    }
     let unbroken = rows(&opened(&set, &dir.path().join("one")));
 
     let mut app = app();
@@ -171,7 +178,7 @@ fn called_off_and_taken_up_again_is_as_unbroken() {
     app.apply(folder(FolderCommand::Cancel));
     settle(&mut app);
     let missing = app.state().folder.missing;
-    assert!((1..=6).contains(&missing), "{missing} are missing");
+    assert!((1..=38).contains(&missing), "{missing} are missing");
     assert!(app.state().folder.was_cancelled);
     act(&mut app, folder(FolderCommand::Evaluate));
     assert_eq!(app.state().folder.missing, 0);
@@ -393,6 +400,44 @@ fn tags_that_make_no_sense_are_never_written_over() {
 }
 
 #[test]
+fn tags_that_cannot_be_saved_are_told_and_stay() {
+    let dir = TempDir::new().expect("a folder");
+    let set = dir.path().join("set");
+    write_peppers(&set, 2);
+    let mut app = opened(&set, &dir.path().join("cache"));
+    // As good as a disk that was pulled out.
+    std::fs::remove_dir_all(&set).expect("removed");
+    let tagged = Tagged::default().with_tags("late");
+    act(
+        &mut app,
+        folder(FolderCommand::Tag {
+            place: 1,
+            tagged: tagged.clone(),
+        }),
+    );
+    let mut messages = app.state().messages.iter();
+    assert!(messages.any(|m| m.is_error && m.text.contains("could not be saved")));
+    assert_eq!(app.state().folder.rows[1].tagged, tagged);
+}
+
+#[test]
+fn files_that_have_changed_are_evaluated_when_asked_again() {
+    let dir = TempDir::new().expect("a folder");
+    let set = dir.path().join("set");
+    let paths = write_peppers(&set, 2);
+    let mut app = opened(&set, &dir.path().join("cache"));
+    let before = rows(&app);
+    std::fs::remove_file(paths[1].with_extension("truth.json")).expect("removed");
+    act(&mut app, folder(FolderCommand::Evaluate));
+    let after = rows(&app);
+    assert_eq!(after[0], before[0]);
+    assert_eq!(
+        (after[1].truth.as_deref(), before[1].truth.as_deref()),
+        (Some("peduncle"), Some("simulation"))
+    );
+}
+
+#[test]
 fn another_program_s_tags_are_kept() {
     let dir = TempDir::new().expect("a folder");
     let set = dir.path().join("set");
@@ -524,8 +569,16 @@ fn sort_filter_and_sweep_survive_a_restart() {
     };
     act(&mut app, folder(FolderCommand::Filter(Box::new(filter))));
     act(&mut app, folder(FolderCommand::Against(TruthChoice::Truth)));
+    assert_eq!(app.state().folder.folders, [dir.path()]);
     let path = dir.path().join("session.json");
     Session::of(app.state()).write(&path).expect("it can be kept");
+    let kept = Session::read(&path).expect("it was kept");
+    assert_eq!(kept.folder.folders(), [dir.path()]);
+    act(&mut app, Command::Close);
+    assert!(
+        Session::of(app.state()).folder.folders().is_empty(),
+        "not as a whole any more"
+    );
     let again = App::new(
         Session::read(&path).expect("it was kept"),
         &(std::sync::Arc::new(|| {}) as _),

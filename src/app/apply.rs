@@ -109,7 +109,13 @@ impl App {
 
     fn open(&mut self, paths: &[PathBuf]) {
         let opened = self.state.open(paths);
-        self.list_changed(paths.iter().any(|path| path.is_dir()));
+        let folders = paths.iter().filter(|path| path.is_dir());
+        let folders: Vec<PathBuf> = folders
+            .filter_map(|path| std::path::absolute(path).ok())
+            .collect();
+        self.list_changed(!folders.is_empty());
+        self.state.folder.folders.retain(|known| !folders.contains(known));
+        self.state.folder.folders.extend(folders);
         for problem in opened.problems {
             self.say(true, problem);
         }
@@ -147,7 +153,13 @@ impl App {
         let Some(current) = self.state.current else {
             return;
         };
-        self.state.entries.remove(current);
+        let closed = self.state.entries.remove(current);
+        // Its folder is no longer open as a whole.
+        let is_of = |folder: &PathBuf| {
+            let path = std::path::absolute(closed.source.path());
+            path.is_ok_and(|path| path.parent() == Some(folder))
+        };
+        self.state.folder.folders.retain(|folder| !is_of(folder));
         self.list_changed(false);
         self.state.current = None;
         self.leave_peduncle();

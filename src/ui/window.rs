@@ -84,6 +84,7 @@ impl Window {
         };
         let layout = start.session.layout.as_deref().and_then(layout_from);
         let (open, current) = (start.session.open.clone(), start.session.current);
+        let folders = start.session.folder.folders().to_vec();
         let plane = start.session.settings.plane;
         let mut app = App::new(start.session, &repaint)?;
         if let Some(problem) = start.problem {
@@ -95,9 +96,10 @@ impl Window {
         if !start.paths.is_empty() {
             app.apply(Command::Open(start.paths));
         } else if open.iter().any(|path| path.exists()) {
-            app.apply(Command::Open(
-                open.into_iter().filter(|path| path.exists()).collect(),
-            ));
+            // What has come into the folders since stands behind what was there.
+            let paths = open.into_iter().filter(|path| path.exists());
+            let folders = folders.into_iter().filter(|path| path.is_dir());
+            app.apply(Command::Open(paths.chain(folders).collect()));
             app.apply(Command::Show(current.unwrap_or(0)));
             app.apply(Command::LookAt(plane));
         }

@@ -79,3 +79,18 @@ fn tags_are_typed_and_undone() {
     press(&mut harness, Modifiers::COMMAND, Key::Z);
     assert_eq!(note(&harness), "Seen from below");
 }
+
+#[test]
+fn a_narrow_window_in_light_colors() {
+    let dir = tempfile::TempDir::new().expect("a folder");
+    super::write_peppers(dir.path(), 4);
+    let mut harness = super::window_on(dir.path(), [820.0, 600.0], 1.0);
+    press(&mut harness, Modifiers::NONE, Key::T);
+    super::tag(&mut harness, 1, "leaf in front", "Half of it is hidden");
+    press(&mut harness, Modifiers::COMMAND, Key::T);
+    // Rows of other parameters than those in force.
+    press(&mut harness, Modifiers::SHIFT, Key::I);
+    snapshot(&mut harness, "table_narrow_stale");
+    press(&mut harness, Modifiers::COMMAND, Key::Num4);
+    snapshot(&mut harness, "gallery_narrow");
+}

@@ -60,6 +60,14 @@ pub struct KeptFolder {
     filter: Filter,
     against: TruthChoice,
     sweep: SweepWish,
+    folders: Vec<PathBuf>,
+}
+
+impl KeptFolder {
+    /// The folders that were open: they may hold more clouds by now.
+    pub fn folders(&self) -> &[PathBuf] {
+        &self.folders
+    }
 }
 
 impl Default for KeptFolder {
@@ -69,6 +77,7 @@ impl Default for KeptFolder {
             filter: Filter::default(),
             against: TruthChoice::Auto,
             sweep: SweepWish::default(),
+            folders: Vec::new(),
         }
     }
 }
@@ -100,6 +109,8 @@ pub struct FolderState {
     pub pictures: Arc<Thumbnails>,
     /// The map of the error over settings.
     pub sweep: SweepState,
+    /// The folders that are open as a whole.
+    pub folders: Vec<PathBuf>,
 }
 
 impl FolderState {
@@ -117,6 +128,8 @@ impl FolderState {
             known_tags: Arc::default(),
             pictures: Arc::default(),
             sweep: SweepState::new(kept.sweep),
+            // They are open again once somebody opens them.
+            folders: Vec::new(),
         }
     }
 
@@ -126,6 +139,7 @@ impl FolderState {
             filter: self.filter.clone(),
             against: self.against,
             sweep: self.sweep.wish.clone(),
+            folders: self.folders.clone(),
         }
     }
 

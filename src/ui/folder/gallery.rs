@@ -156,7 +156,9 @@ fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: us
     let response = ui.interact(rect, id.with(place), Sense::click());
     let is_current = state.current == Some(place);
     let error = row.error_deg(state.folder.against);
-    let off = error.map(|e| format!("{e:.1}°"));
+    // The picture is of the parameters in force, the error not yet.
+    let before = if row.is_stale { " before" } else { "" };
+    let off = error.map(|e| format!("{e:.1}°{before}"));
     response.widget_info(|| {
         let off = off.as_ref().map_or("no error".into(), |off| format!("{off} off"));
         let label = format!("Picture of {}, {off}", row.name);

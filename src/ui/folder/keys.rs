@@ -13,6 +13,7 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
     let pane = |title: &str, pane, key| {
         Action::window(title, Group::Window, WindowAct::Show(pane)).key(Modifiers::COMMAND, key)
     };
+    let has_files = folder.rows.iter().any(|row| row.path.is_some());
     let evaluation = if folder.progress.is_some() {
         Action::app(
             Group::File,
@@ -25,7 +26,8 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
             "Evaluate all open clouds",
             Command::Folder(FolderCommand::Evaluate),
         )
-        .when(folder.missing > 0)
+        // Where nothing is missing: files may have changed.
+        .when(has_files)
     };
     let worse = |title: &str, by, key| {
         Action::app(Group::File, title, Command::Folder(FolderCommand::GoWorse(by)))
@@ -33,7 +35,6 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
             .when(folder.rows.len() > 1)
             .repeating()
     };
-    let has_files = folder.rows.iter().any(|row| row.path.is_some());
     vec![
         Action::window(
             "Save the results of all clouds …",

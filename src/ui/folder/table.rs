@@ -52,7 +52,8 @@ impl Column {
     fn letters(self) -> f32 {
         match self {
             Self::Opened => 6.0,
-            Self::Name | Self::Annotators => 13.0,
+            Self::Name => 16.0,
+            Self::Annotators => 13.0,
             Self::Points | Self::TrueError | Self::Lead => 8.5,
             Self::PeduncleError => 11.5,
             Self::ManualError | Self::DirectionError => 10.5,
