@@ -16,6 +16,10 @@ use crate::view::ViewPreset;
 impl App {
     /// Does what a panel asks for.
     pub fn apply(&mut self, command: Command) {
+        if self.state.annotating.is_blind && command.reveals() {
+            self.say(false, "Blind mode hides what is computed.".into());
+            return;
+        }
         match command {
             Command::Open(paths) => self.open(&paths),
             Command::OpenSample(sample) => {
@@ -42,7 +46,10 @@ impl App {
                 }
             }
             Command::Resume => self.asked = None,
-            Command::Compare(truth) => self.state.truth = truth,
+            Command::Compare(truth) => {
+                self.state.truth = truth;
+                self.state.annotating.compared = None;
+            }
 
             Command::LookAt(plane) => self.look_at(plane),
             Command::Step(by) => self.step(by),
@@ -86,6 +93,8 @@ impl App {
                 self.set(request, Some("center"));
             }
 
+            Command::Annotate(command) => self.annotate(command),
+
             Command::Scale(scale) => self.state.interface_scale = scale.clamp(0.5, 3.0),
             Command::Dismiss(id) => self.state.messages.retain(|message| message.id != id),
             Command::Say { is_error, text } => self.say(is_error, text),
@@ -118,6 +127,7 @@ impl App {
         self.state.settings.plane = PlaneChoice::Best;
         self.state.is_playing = false;
         self.needs_framing = true;
+        self.leave_subject();
     }
 
     fn go(&mut self, by: isize) {
@@ -134,6 +144,7 @@ impl App {
             return;
         };
         self.state.entries.remove(current);
+        self.leave_subject();
         self.state.current = None;
         if self.state.entries.is_empty() {
             self.analysis.cancel();
@@ -259,7 +270,8 @@ impl App {
     fn pivot(&mut self) {
         let picked = self.state.picked.zip(self.state.shown());
         let place = picked.map(|(i, shown)| shown.positions[i]);
-        let center = self.state.analysis().map(|a| a.center);
+        let is_blind = self.state.annotating.is_blind;
+        let center = self.state.analysis().map(|a| a.center).filter(|_| !is_blind);
         if let Some(pivot) = place.or(center) {
             self.state.camera.set_pivot(pivot);
         }

@@ -136,7 +136,7 @@ impl Contributions {
 /// Generations are counted over the whole program, so that no view mistakes one for another.
 static GENERATION: AtomicU64 = AtomicU64::new(1);
 
-fn next_generation() -> u64 {
+pub(super) fn next_generation() -> u64 {
     GENERATION.fetch_add(1, Ordering::Relaxed)
 }
 

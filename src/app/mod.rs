@@ -8,6 +8,7 @@
 //! It knows no window toolkit: whatever draws it calls [`App::update`] once a frame, reads [`State`],
 //! and hands in [`Command`]s.
 
+pub mod annotating;
 mod apply;
 mod caption;
 mod command_line;
@@ -17,6 +18,7 @@ mod history;
 mod image;
 pub mod look;
 mod navigate;
+pub mod queue;
 mod samples;
 mod session;
 mod stages;
@@ -33,7 +35,7 @@ use glam::DVec2;
 
 use crate::evaluate::{compared, sentence};
 use crate::geometry::{Cancelled, Extent};
-use crate::method::PlaneDetail;
+use crate::method::{AxisEstimate, PlaneDetail};
 use crate::render::{Camera, Viewport};
 use crate::view::{ShownPoints, pick_point};
 
@@ -44,6 +46,7 @@ use navigate::framed_camera;
 use stages::{Stages, WalkError};
 use worker::{Crashed, Lane, Repaint};
 
+pub use annotating::{AnnotateCommand, Annotating};
 pub use caption::{caption, lead_in_words};
 pub use command_line::{analysis_options, command_line, quoted};
 pub use history::History as UndoHistory;
@@ -82,7 +85,7 @@ struct Seen {
     style: Style,
     pixels_per_point: f32,
     brush_cm: Option<std::ops::RangeInclusive<f64>>,
-    truth: TruthChoice,
+    reference: Option<AxisEstimate>,
 }
 
 /// What a click or a hovering cursor asks.
@@ -118,6 +121,7 @@ pub struct App {
     repaint: Repaint,
     /// The last click that was not answered yet.
     pending_click: Option<PickQuestion>,
+    annotator: annotating::Annotator,
 }
 
 impl App {
@@ -128,6 +132,7 @@ impl App {
     /// Where the operating system starts no thread.
     pub fn new(session: Session, repaint: &Repaint) -> std::io::Result<Self> {
         let mut state = State::new(session.settings, session.style.into());
+        state.annotating = annotating::Annotating::new(session.annotating);
         state.recent = session.recent;
         state.interface_scale = session.interface_scale.clamp(0.5, 3.0);
         Ok(Self {
@@ -150,6 +155,7 @@ impl App {
             arrivals: channel(),
             repaint: repaint.clone(),
             pending_click: None,
+            annotator: annotating::Annotator::new(repaint)?,
         })
     }
 
@@ -167,7 +173,11 @@ impl App {
 
     /// Whether the workers have anything to do, or to hand out.
     pub fn is_busy(&self) -> bool {
-        self.analysis.is_busy() || self.looks.is_busy() || self.picks.is_busy() || self.images.is_busy()
+        self.analysis.is_busy()
+            || self.looks.is_busy()
+            || self.picks.is_busy()
+            || self.images.is_busy()
+            || self.annotator.is_busy()
     }
 
     /// What is to be done once a frame: takes what the workers have made, and asks for what is wanted
@@ -177,7 +187,9 @@ impl App {
         self.take_arrivals();
         self.take_analysis(None);
         self.ask_for_analysis();
+        self.update_annotating();
         self.ask_for_look();
+        self.update_edit_scenes();
         self.ask_for_pick();
         if let Some((_, result)) = self.images.take() {
             let (is_error, text) = match result {
@@ -306,6 +318,8 @@ impl App {
         match result {
             Ok(walked) => {
                 set_problem(None);
+                self.set_subject(&walked.fruit, &walked.shown);
+                let walked = self.with_annotations(walked);
                 let request = &self.state.settings.request;
                 let (references, warnings) = compared(&walked.fruit, request, &walked.analysis);
                 let before = self.state.walked.as_ref();
@@ -330,12 +344,14 @@ impl App {
                 set_problem(Some(sentence(&error.to_string())));
                 self.state.warnings.clone_from(&fruit.warnings);
                 self.forget_analysis();
+                self.set_subject(&fruit, &shown);
                 let why = sentence(&format!("{}: {error}", self.name_of_current()));
                 self.state.unanalyzed = Some((shown, Some(why)));
             }
             Err(WalkError::Fruit(error)) => {
                 set_problem(Some(sentence(&error.reason())));
                 self.forget_analysis();
+                self.leave_subject();
                 self.say(true, sentence_of_file(&error.to_string()));
             }
             Err(WalkError::Cancelled) => self.state.was_cancelled = true,
@@ -367,20 +383,21 @@ impl App {
             self.seen = None;
             return;
         };
+        let is_blind = self.state.annotating.is_blind;
         let wanted = Seen {
             shown_generation: self.shown_generation,
-            plane: self.state.plane_index(),
-            style: self.state.style.clone(),
+            plane: self.state.plane_index().filter(|_| !is_blind),
+            style: self.state.shown_style(),
             pixels_per_point: self.state.pixels_per_point,
             brush_cm: self.state.brush_cm.clone(),
-            truth: self.state.truth,
+            reference: self.state.reference().cloned().filter(|_| !is_blind),
         };
         if self.seen.as_ref() != Some(&wanted) {
             let question = Question {
                 shown,
                 analysis: self.state.analysis().cloned(),
                 plane: wanted.plane,
-                reference: self.state.reference().cloned(),
+                reference: wanted.reference.clone(),
                 style: wanted.style.clone(),
                 pixels_per_point: wanted.pixels_per_point,
                 brush_cm: wanted.brush_cm.clone(),

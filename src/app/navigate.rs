@@ -19,7 +19,7 @@ fn framed(state: &State) -> (Vec<DVec3>, Insets) {
         return (Vec::new(), Insets::default());
     };
     let look = state.look.as_deref();
-    let style = &state.style;
+    let style = &state.shown_style();
     let page = Page {
         viewport: state.viewport,
         theme: style.theme,
@@ -48,7 +48,7 @@ fn framed(state: &State) -> (Vec<DVec3>, Insets) {
                 eye_dome_strength: 0.0,
                 plane,
                 axis: axis.as_ref(),
-                reference: state.reference(),
+                reference: state.reference().filter(|_| !state.annotating.is_blind),
             },
         ),
         (None, _) => framed_cloud(shown),
@@ -62,6 +62,9 @@ fn plane_and_axis(
     Option<crate::geometry::Plane>,
     Option<crate::method::AxisEstimate>,
 ) {
+    if state.annotating.is_blind {
+        return (None, None);
+    }
     let plane = state.analysis().zip(state.chosen_plane_index()).map(|(a, i)| {
         let normal = a.planes.grid.candidate(i).normal;
         crate::geometry::Plane {

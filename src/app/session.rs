@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::annotating::KeptAnnotating;
 use super::look::Style;
 use super::stages::Source;
 use super::state::{Settings, State};
@@ -29,6 +30,8 @@ pub struct Session {
     pub interface_scale: f32,
     /// The arrangement of the panels, as the window wrote it.
     pub layout: Option<String>,
+    /// The annotator's name and choices.
+    pub annotating: KeptAnnotating,
     /// The window's inner size in logical pixels.
     pub window_size: Option<[f32; 2]>,
 }
@@ -130,6 +133,7 @@ impl Session {
             open: files.into_iter().map(|(_, path)| path).collect(),
             interface_scale: state.interface_scale,
             layout: None,
+            annotating: state.annotating.kept(),
             window_size: None,
         }
     }

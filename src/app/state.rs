@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use super::annotating::{AnnotateCommand, Annotating, KeptAnnotating};
 use super::look::{Look, Style};
 use super::samples::Sample;
 use super::stages::{Source, Walked};
@@ -153,6 +154,8 @@ pub struct State {
     pub is_software: bool,
     /// How large the interface is; 1 as the screen asks for.
     pub interface_scale: f32,
+    /// Axes set by hand.
+    pub annotating: Annotating,
 }
 
 impl State {
@@ -187,6 +190,7 @@ impl State {
             messages: Vec::new(),
             is_software: false,
             interface_scale: 1.0,
+            annotating: Annotating::new(KeptAnnotating::default()),
         }
     }
 
@@ -239,7 +243,11 @@ impl State {
 
     /// The axis that errors are measured against: the chosen one, or else the first there is.
     pub fn reference(&self) -> Option<&AxisEstimate> {
-        reference_of(&self.references, self.truth).or(self.references.first())
+        let chosen = self.annotating.compared.as_ref();
+        let chosen = chosen.and_then(|source| self.references.iter().find(|axis| axis.source == *source));
+        chosen
+            .or_else(|| reference_of(&self.references, self.truth))
+            .or(self.references.first())
     }
 
     /// The detail of the plane that is drawn.
@@ -335,6 +343,9 @@ pub enum Command {
     Use(Tool),
     /// Put the fruit center somewhere, in the file's unit and frame.
     MoveCenter(glam::DVec3),
+
+    /// Something about axes set by hand.
+    Annotate(AnnotateCommand),
 
     /// Make the interface larger or smaller.
     Scale(f32),

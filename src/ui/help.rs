@@ -33,7 +33,7 @@ pub fn show(ctx: &egui::Context, actions: &[Action]) -> bool {
                 ui.columns(columns, |columns| {
                     let count = columns.len();
                     let parts: [&[Group]; 3] = [
-                        &[Group::File, Group::Edit],
+                        &[Group::File, Group::Edit, Group::TrueAxis],
                         &[Group::Plane, Group::View],
                         &[Group::Color, Group::Overlay, Group::Window],
                     ];

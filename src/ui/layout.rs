@@ -22,11 +22,13 @@ pub enum Pane {
     Point,
     /// How the contributions are spread.
     Contributions,
+    /// Axes set by hand.
+    TrueAxis,
 }
 
 impl Pane {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::View,
         Self::Files,
         Self::Parameters,
@@ -35,6 +37,7 @@ impl Pane {
         Self::Ranking,
         Self::Point,
         Self::Contributions,
+        Self::TrueAxis,
     ];
 
     /// What its tab says.
@@ -48,6 +51,7 @@ impl Pane {
             Self::Ranking => "Ranking",
             Self::Point => "Why this score?",
             Self::Contributions => "Contributions",
+            Self::TrueAxis => "True axes",
         }
     }
 }
@@ -71,8 +75,9 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
         ranking,
         point,
         contributions,
+        true_axis,
     ] = Pane::ALL.map(|pane| tiles.insert_pane(pane));
-    let left = tiles.insert_tab_tile(vec![parameters, files]);
+    let left = tiles.insert_tab_tile(vec![parameters, files, true_axis]);
     let above = tiles.insert_tab_tile(vec![map, hemisphere]);
     let middle = tiles.insert_tab_tile(vec![ranking]);
     let below = tiles.insert_tab_tile(vec![point, contributions]);
@@ -117,8 +122,9 @@ fn narrow_layout() -> Tree<Pane> {
         ranking,
         point,
         contributions,
+        true_axis,
     ] = Pane::ALL.map(|pane| tiles.insert_pane(pane));
-    let above = tiles.insert_tab_tile(vec![parameters, files, point, contributions]);
+    let above = tiles.insert_tab_tile(vec![parameters, files, true_axis, point, contributions]);
     let below = tiles.insert_tab_tile(vec![map, hemisphere, ranking]);
     for (tabs, first) in [(above, parameters), (below, map)] {
         if let Some(egui_tiles::Tile::Container(Container::Tabs(tabs))) = tiles.get_mut(tabs) {

@@ -6,8 +6,11 @@ use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse
 use super::actions::{Act, Action, WindowAct};
 use super::files::{self, FilesAnswer};
 use super::layout::Pane;
-use super::{contributions, hemisphere, parameters, point, ranking, score_map, scrub, view_bar, view3d};
-use crate::app::{Command, State};
+use super::{
+    annotating, contributions, hemisphere, notice, parameters, point, ranking, score_map, scrub, view_bar,
+    view3d,
+};
+use crate::app::{AnnotateCommand, Command, State};
 use crate::render::Viewport;
 
 /// What the panels are given, and what they say.
@@ -68,15 +71,27 @@ impl Panes<'_> {
         Frame::new().inner_margin(Margin::symmetric(8, 4)).show(ui, |ui| {
             view_bar::show(ui, self.state, self.actions, self.acts);
         });
-        Panel::bottom("scrub").show_separator_line(false).show(ui, |ui| {
-            scrub::show(ui, self.state, self.commands);
-        });
+        if !self.state.annotating.is_blind {
+            Panel::bottom("scrub").show_separator_line(false).show(ui, |ui| {
+                scrub::show(ui, self.state, self.commands);
+            });
+        }
+        let is_in_locked = annotating::locked_views(ui, self.state, self.is_gpu, self.commands);
         let answer = view3d::show(ui, self.state, self.is_gpu, self.commands);
         *self.viewport = Some(answer.viewport);
+        if self.state.annotating.landing.is_some() && !is_in_locked && !answer.is_hovered {
+            let gone = AnnotateCommand::Hover(None);
+            self.commands.push(Command::Annotate(gone));
+        }
     }
 
     fn panel(&mut self, ui: &mut egui::Ui, pane: Pane) {
         let (state, commands) = (self.state, &mut *self.commands);
+        let is_free = matches!(pane, Pane::View | Pane::Files | Pane::Parameters | Pane::TrueAxis);
+        if state.annotating.is_blind && !is_free {
+            notice::hidden(ui, commands);
+            return;
+        }
         match pane {
             Pane::View => {}
             Pane::Files => {
@@ -98,6 +113,11 @@ impl Panes<'_> {
                 });
             }
             Pane::Contributions => contributions::show(ui, state, commands),
+            Pane::TrueAxis => {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    annotating::show(ui, state, commands);
+                });
+            }
         }
     }
 }

@@ -5,7 +5,9 @@ use egui::{
 };
 use glam::DVec2;
 
+use super::annotating::{Stage, hints};
 use super::paint::ViewCallback;
+use crate::app::annotating::EditView;
 use crate::app::why::{why, why_lines};
 use crate::app::{Command, State, Tool, Written, dragged};
 use crate::render::{Line, Viewport};
@@ -18,6 +20,8 @@ const ORBIT_RAD_PER_PX: f64 = 0.008;
 pub(super) struct ViewAnswer {
     /// Its size in logical pixels.
     pub(super) viewport: Viewport,
+    /// Whether the cursor is in it while clicks set an axis.
+    pub(super) is_hovered: bool,
 }
 
 /// Draws the view into all of the room that is left.
@@ -31,12 +35,22 @@ pub(super) fn show(
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, description(state)));
     let viewport = Viewport::new(rect.width().into(), rect.height().into());
-    let answer = ViewAnswer { viewport };
+    let mut answer = ViewAnswer {
+        viewport,
+        is_hovered: false,
+    };
     let Some(look) = state.look.as_ref() else {
         empty(ui, rect, state);
         return answer;
     };
     navigate(ui, &response, rect, state, viewport, commands);
+    let stage = Stage {
+        view: EditView::Main,
+        rect,
+        camera: &state.camera,
+        viewport,
+    };
+    answer.is_hovered = stage.interact(ui, &response, state, commands);
 
     let pixels_per_point = ui.ctx().pixels_per_point();
     if is_gpu {
@@ -46,7 +60,12 @@ pub(super) fn show(
             rect,
             ViewCallback {
                 view: response.id,
-                scene: look.scene.clone(),
+                scene: state
+                    .annotating
+                    .ghost_scene
+                    .as_ref()
+                    .unwrap_or(&look.scene)
+                    .clone(),
                 lines: cursor_lines(state, pixels_per_point),
                 camera: state.camera,
                 size_px,
@@ -68,6 +87,7 @@ pub(super) fn show(
     for annotation in annotate(&page, &state.camera, &measure) {
         paint(&painter, rect, &annotation);
     }
+    stage.paint(ui, &response, state);
     notices(ui, rect, state);
     answer
 }
@@ -99,7 +119,10 @@ fn navigate(
     let shift = ui.input(|i| i.modifiers.shift);
     let mut camera = state.camera;
     let is_primary = response.dragged_by(PointerButton::Primary);
-    let pans = response.dragged_by(PointerButton::Secondary)
+    let is_primary = is_primary && !state.annotating.is_editing;
+    // Where the left button sets the axis, the right one turns.
+    let turns = state.annotating.is_editing && response.dragged_by(PointerButton::Secondary) && !shift;
+    let pans = (response.dragged_by(PointerButton::Secondary) && !turns)
         || response.dragged_by(PointerButton::Middle)
         || (is_primary && shift);
     let center = state.analysis().map(|a| a.center);
@@ -109,7 +132,7 @@ fn navigate(
         if let Some(center) = center.filter(|_| by_px != DVec2::ZERO) {
             commands.push(Command::MoveCenter(dragged(center, by_px, &camera, viewport)));
         }
-    } else if is_primary {
+    } else if is_primary || turns {
         camera.orbit(ORBIT_RAD_PER_PX * by_px.x, ORBIT_RAD_PER_PX * by_px.y);
     }
     if response.drag_stopped() && state.tool == Tool::MoveCenter {
@@ -128,6 +151,9 @@ fn navigate(
     }
     if state.tool == Tool::MoveCenter && response.hovered() {
         ui.ctx().set_cursor_icon(CursorIcon::Move);
+    }
+    if state.annotating.is_editing {
+        return;
     }
     if let Some(at) = response.interact_pointer_pos() {
         if response.double_clicked() {
@@ -202,6 +228,7 @@ fn notices(ui: &egui::Ui, rect: Rect, state: &State) {
     if state.tool == Tool::MoveCenter {
         lines.push("Drag to move the fruit center; Esc ends it.".into());
     }
+    lines.extend(hints(state));
     let mut at = rect.min + vec2(12.0, 12.0);
     for line in lines {
         let color = ui.visuals().strong_text_color();

@@ -9,6 +9,7 @@ use egui::{CentralPanel, Frame, Panel, ViewportCommand};
 use egui_tiles::Tree;
 
 use super::actions::{Act, Action, WindowAct, actions};
+use super::annotating;
 use super::dialogs::{self, Asked};
 use super::layout::{Pane, first_layout, is_wide, layout_from};
 use super::paint::Views;
@@ -58,6 +59,9 @@ pub struct Window {
     /// Whether the time that each frame takes goes to standard error.
     tells_frames: bool,
     last_ui: Option<Instant>,
+    /// Whether the window is to be closed as soon as every axis is saved.
+    is_closing: bool,
+    may_close: bool,
 }
 
 impl Window {
@@ -121,6 +125,8 @@ impl Window {
             title: String::new(),
             tells_frames: std::env::var_os("AXISCOPE_FRAMES").is_some(),
             last_ui: None,
+            is_closing: false,
+            may_close: false,
         })
     }
 
@@ -196,6 +202,9 @@ impl Window {
             self.app
                 .set_view(viewport, ctx.pixels_per_point(), self.is_software);
         }
+        annotating::ask_name(&ctx, self.app.state(), &mut commands);
+        self.close(&ctx, &mut commands);
+        let was_editing = self.app.state().annotating.is_editing;
         for command in commands {
             self.app.apply(command);
         }
@@ -204,6 +213,9 @@ impl Window {
                 Act::App(command) => self.app.apply(command),
                 Act::Window(act) => self.act(&ctx, act),
             }
+        }
+        if self.app.state().annotating.is_editing && !was_editing {
+            self.act(&ctx, WindowAct::Show(Pane::TrueAxis));
         }
     }
 
@@ -216,6 +228,27 @@ impl Window {
             self.tree = first_layout(width);
         }
         self.laid_out_for = width;
+    }
+
+    /// Where axes are still being saved, or could not be, the window does not close yet.
+    fn close(&mut self, ctx: &egui::Context, commands: &mut Vec<Command>) {
+        let is_asked = ctx.input(|i| i.viewport().close_requested());
+        if self.may_close || (!is_asked && !self.is_closing) {
+            return;
+        }
+        match annotating::Farewell::of(ctx, self.app.state(), commands) {
+            annotating::Farewell::Close if is_asked => {}
+            annotating::Farewell::Close => {
+                self.may_close = true;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+            annotating::Farewell::Stay => self.is_closing = false,
+            annotating::Farewell::Wait => {
+                self.is_closing = true;
+                ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+                ctx.request_repaint_after(Duration::from_millis(50));
+            }
+        }
     }
 
     /// Files that were dropped, and answers of dialogs.
@@ -237,7 +270,8 @@ impl Window {
     }
 
     fn keys(&self, ctx: &egui::Context, all: &[Action], acts: &mut Vec<Act>) {
-        let is_covered = self.is_help_open || self.is_about_open || self.saving.is_some();
+        let is_asking = self.app.state().annotating.asks_name || self.is_closing;
+        let is_covered = self.is_help_open || self.is_about_open || self.saving.is_some() || is_asking;
         if is_covered || self.palette.is_some() || ctx.text_edit_focused() {
             return;
         }
@@ -402,6 +436,7 @@ impl eframe::App for Window {
     }
 
     fn on_exit(&mut self) {
+        self.app.finish();
         self.keep(true, None);
     }
 

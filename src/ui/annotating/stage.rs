@@ -1,0 +1,283 @@
+//! The axis in one view: how it is drawn, and what the left button does there in edit mode.
+
+use egui::{Align2, Color32, CursorIcon, FontId, Painter, PointerButton, Pos2, Rect, Shape, Stroke, vec2};
+use glam::{DVec2, DVec3};
+
+use super::super::marks::color32;
+use super::{OTHERS, OWN, say};
+use crate::annotate::{Annotation, Role};
+use crate::app::annotating::{Draft, EditView, Grab, Handle};
+use crate::app::{AnnotateCommand, Command, State};
+use crate::render::{Camera, Viewport};
+
+const HALO: Color32 = Color32::from_rgb(0x10, 0x12, 0x14);
+
+/// One view.
+pub(in crate::ui) struct Stage<'a> {
+    pub(in crate::ui) view: EditView,
+    pub(in crate::ui) rect: Rect,
+    pub(in crate::ui) camera: &'a Camera,
+    pub(in crate::ui) viewport: Viewport,
+}
+
+impl Stage<'_> {
+    fn local(&self, at: Pos2) -> DVec2 {
+        let from = at - self.rect.min;
+        DVec2::new(from.x.into(), from.y.into())
+    }
+
+    fn place(&self, point_in_world: DVec3) -> Option<Pos2> {
+        let at = self.camera.project(point_in_world, self.viewport)?;
+        Some(self.rect.min + vec2(at.x as f32, at.y as f32))
+    }
+
+    /// What the left button and the cursor do; whether the cursor is here.
+    pub(in crate::ui) fn interact(
+        &self,
+        ui: &egui::Ui,
+        response: &egui::Response,
+        state: &State,
+        commands: &mut Vec<Command>,
+    ) -> bool {
+        let annotating = &state.annotating;
+        if !annotating.can_edit() {
+            return false;
+        }
+        let hover = response.hover_pos().map(|at| self.local(at));
+        let landing_at = |pixel| annotating.landing_at(pixel, self.camera, self.viewport);
+        if annotating.next_end().is_some() {
+            let landing = hover.and_then(landing_at);
+            if landing.is_some() && landing != annotating.landing {
+                say(commands, AnnotateCommand::Hover(landing));
+            }
+            if hover.is_some() {
+                ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
+            }
+            let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
+            if let Some(landing) = clicked.and_then(|at| landing_at(self.local(at))) {
+                say(commands, AnnotateCommand::Place(landing));
+            }
+            return hover.is_some();
+        }
+        self.drag(ui, response, state, commands);
+        hover.is_some()
+    }
+
+    fn drag(&self, ui: &egui::Ui, response: &egui::Response, state: &State, commands: &mut Vec<Command>) {
+        let annotating = &state.annotating;
+        let mut grab = annotating.grabbed.filter(|grab| grab.view == self.view);
+        if response.drag_started_by(PointerButton::Primary)
+            && let Some(at) = ui.input(|i| i.pointer.press_origin())
+            && let Some(handle) = annotating.handle_at(self.local(at), self.camera, self.viewport)
+            && let Some(ends) = annotating.ends()
+        {
+            let at_px = self.local(at);
+            let view = self.view;
+            say(commands, AnnotateCommand::Grab { handle, view, at_px });
+            grab = Some(Grab {
+                handle,
+                view,
+                place: handle.place(&ends),
+                at_px,
+            });
+        }
+        if let Some(grab) = grab {
+            let moved = ui.input(|i| i.pointer.delta() != egui::Vec2::ZERO);
+            if let Some(at) = response
+                .interact_pointer_pos()
+                .filter(|_| moved && response.dragged_by(PointerButton::Primary))
+            {
+                let place = annotating.held_at(&grab, self.local(at), self.camera, self.viewport);
+                say(commands, AnnotateCommand::Drag(place));
+            }
+            if response.drag_stopped() {
+                say(commands, AnnotateCommand::Drop);
+            }
+            ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
+        } else if self.hovered(response, state).is_some() {
+            ui.ctx().set_cursor_icon(CursorIcon::Grab);
+        }
+    }
+
+    /// The handle that a press would grab, or that is held.
+    fn hovered(&self, response: &egui::Response, state: &State) -> Option<Handle> {
+        let annotating = &state.annotating;
+        if let Some(grab) = annotating.grabbed {
+            return Some(grab.handle);
+        }
+        let at = response.hover_pos()?;
+        annotating.handle_at(self.local(at), self.camera, self.viewport)
+    }
+
+    /// Draws everybody's axes, the own one, and where a click would land.
+    pub(in crate::ui) fn paint(&self, ui: &egui::Ui, response: &egui::Response, state: &State) {
+        let annotating = &state.annotating;
+        let painter = ui.painter().with_clip_rect(self.rect);
+        if annotating.shows_all {
+            for (i, annotation) in annotating.annotations.iter().enumerate() {
+                let is_own = annotating.is_editing
+                    && annotating.author().is_ok_and(|author| annotation.is_by(&author));
+                if !is_own {
+                    self.other(&painter, annotation, i);
+                }
+            }
+        }
+        if !annotating.is_editing {
+            return;
+        }
+        if let (Some(ends), Draft::None) = (annotating.ends(), annotating.draft) {
+            let (base, blossom) = (ends.peduncle_base(), ends.blossom_end());
+            let beyond = 0.25 * (base - blossom);
+            self.line(&painter, base + beyond, blossom - beyond, OWN, 1.0);
+            self.line(&painter, base, blossom, OWN, 2.5);
+            let hovered = self.hovered(response, state);
+            for handle in [Handle::Middle, Handle::BlossomEnd, Handle::PeduncleBase] {
+                self.handle(&painter, handle, handle.place(&ends), hovered == Some(handle));
+            }
+            self.labels(
+                &painter,
+                &[Handle::PeduncleBase, Handle::BlossomEnd].map(|h| (h, h.place(&ends))),
+            );
+            if let Some(Handle::Middle) = hovered {
+                self.label(&painter, Handle::Middle.title(), ends.middle());
+            }
+        }
+        if let Draft::Base(base) = annotating.draft {
+            if let Some(landing) = annotating.landing {
+                self.line(&painter, base, landing, OWN, 2.0);
+            }
+            self.handle(&painter, Handle::PeduncleBase, base, false);
+            self.labels(&painter, &[(Handle::PeduncleBase, base)]);
+        }
+        if let (Some(end), Some(landing)) = (annotating.next_end(), annotating.landing) {
+            self.handle(&painter, end, landing, true);
+            self.labels(&painter, &[(end, landing)]);
+        }
+    }
+
+    fn line(&self, painter: &Painter, from: DVec3, to: DVec3, color: crate::render::Color, width: f32) {
+        if let (Some(from), Some(to)) = (self.place(from), self.place(to)) {
+            painter.line_segment([from, to], Stroke::new(width + 2.0, HALO));
+            painter.line_segment([from, to], Stroke::new(width, color32(color)));
+        }
+    }
+
+    /// A disc for the base, a ring for the blossom end, a small diamond for the whole.
+    fn handle(&self, painter: &Painter, handle: Handle, place: DVec3, stands_out: bool) {
+        let Some(at) = self.place(place) else { return };
+        let scale = if self.view == EditView::Main { 1.0 } else { 0.8 };
+        let radius = scale * if stands_out { 8.5 } else { 6.5 };
+        let color = color32(OWN);
+        let edge = if stands_out { Color32::WHITE } else { HALO };
+        match handle {
+            Handle::PeduncleBase => {
+                painter.circle(at, radius, color, Stroke::new(2.0, edge));
+            }
+            Handle::BlossomEnd => {
+                painter.circle_stroke(at, radius, Stroke::new(5.0, edge));
+                painter.circle_stroke(at, radius, Stroke::new(2.5, color));
+            }
+            Handle::Middle => {
+                let corners = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]
+                    .map(|(x, y)| at + 0.8 * radius * vec2(x, y))
+                    .to_vec();
+                painter.add(Shape::convex_polygon(corners, color, Stroke::new(1.5, edge)));
+            }
+        }
+    }
+
+    /// The ends' names, in the large view.
+    fn labels(&self, painter: &Painter, ends: &[(Handle, DVec3)]) {
+        if self.view == EditView::Main {
+            for (handle, place) in ends {
+                self.label(painter, handle.title(), *place);
+            }
+        }
+    }
+
+    fn label(&self, painter: &Painter, text: &str, place: DVec3) {
+        if let Some(at) = self.place(place) {
+            write(painter, self.rect, text, at + vec2(13.0, 0.0), color32(OWN));
+        }
+    }
+
+    fn other(&self, painter: &Painter, annotation: &Annotation, i: usize) {
+        let Some(ends) = annotation.ends() else { return };
+        let color = other_color(annotation, i);
+        let (base, blossom) = (ends.peduncle_base(), ends.blossom_end());
+        self.line(painter, base, blossom, color, 2.0);
+        if let (Some(at), EditView::Main) = (self.place(base), self.view) {
+            painter.circle(at, 4.0, color32(color), Stroke::new(1.5, HALO));
+            let name = match annotation.role {
+                Role::Annotator => annotation.annotator.clone(),
+                Role::Adjudicator => format!("adjudicated ({})", annotation.annotator),
+            };
+            // Names of axes that lie close are staggered.
+            let shift = vec2(9.0, -16.0 * (i % 4) as f32);
+            write(painter, self.rect, &name, at + shift, color32(color));
+        }
+    }
+}
+
+/// The color of somebody's axis.
+pub(super) fn other_color(annotation: &Annotation, i: usize) -> crate::render::Color {
+    match annotation.role {
+        Role::Annotator => OTHERS[i % OTHERS.len()],
+        Role::Adjudicator => [255; 4],
+    }
+}
+
+/// Text on a plate that stays within the view.
+fn write(painter: &Painter, within: Rect, text: &str, at: Pos2, color: Color32) {
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.5), color);
+    let mut plate = Align2::LEFT_CENTER
+        .anchor_size(at, galley.size())
+        .expand2(vec2(4.0, 2.0));
+    let inside = within.shrink(2.0);
+    let over = vec2(
+        (plate.right() - inside.right()).max(0.0) - (inside.left() - plate.left()).max(0.0),
+        (plate.bottom() - inside.bottom()).max(0.0) - (inside.top() - plate.top()).max(0.0),
+    );
+    plate = plate.translate(-over);
+    painter.rect_filled(plate, 3.0, Color32::from_black_alpha(200));
+    painter.galley(plate.min + vec2(4.0, 2.0), galley, color);
+}
+
+/// What the view says of edit mode and of blind mode.
+pub(in crate::ui) fn hints(state: &State) -> Vec<String> {
+    let annotating = &state.annotating;
+    let mut lines = Vec::new();
+    if annotating.is_blind {
+        lines.push(if annotating.was_seen {
+            "Blind mode. This cloud was shown with its computed axis before: an axis of it is not recorded as \
+             blind."
+                .into()
+        } else {
+            "Blind mode: everything computed is hidden (Shift+B).".to_owned()
+        });
+    }
+    if !annotating.is_editing {
+        return lines;
+    }
+    let what = match (annotating.next_end(), annotating.draft) {
+        _ if annotating.subject.is_none() => "Setting the true axis: waiting for the cloud …",
+        (Some(Handle::BlossomEnd), _) => {
+            "Click the blossom end. The ring in the small views shows how deep it lands; Esc drops the base."
+        }
+        (Some(_), _) => {
+            "Click the peduncle's base. It lands inside, as deep as the fruit's middle: see the small views."
+        }
+        (None, _) if annotating.set_ends().is_none() => {
+            "Recorded: the axis cannot be told. Ctrl+Z takes it back, S sets an axis after all."
+        }
+        (None, _) => {
+            "Drag an end or the middle, here or in a small view. Arrows turn by 1°, with Shift 5°, with Alt \
+             0.1°; S sets both anew."
+        }
+    };
+    lines.push(what.into());
+    lines.push(
+        "The left button sets the axis. Right drag turns the view, middle drag moves it; T ends.".into(),
+    );
+    lines
+}
