@@ -2,7 +2,7 @@
 
 use egui::{Align, Layout, RichText, Ui};
 
-use crate::app::{AnnotateCommand, Command, Source, State};
+use crate::app::{Command, Source, State};
 
 /// Says why there is no analysis to show.
 pub fn nothing_to_show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
@@ -18,15 +18,11 @@ pub fn nothing_to_show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) 
 }
 
 /// Stands in for what blind mode hides.
-pub fn hidden(ui: &mut Ui, commands: &mut Vec<Command>) {
+pub fn hidden(ui: &mut Ui) {
     let height = ui.available_height();
     ui.allocate_ui_with_layout(ui.available_size(), Layout::top_down(Align::Center), |ui| {
         ui.add_space((0.5 * height - 24.0).clamp(4.0, 160.0));
-        ui.label("Hidden in blind mode.");
-        let tip = "Shows what is computed; axes that are set from then on are not blind (Shift+B)";
-        if ui.button("Leave blind mode").on_hover_text(tip).clicked() {
-            commands.push(Command::Annotate(AnnotateCommand::Blind(false)));
-        }
+        ui.label("Hidden in blind mode (Shift+B).");
     });
 }
 

@@ -76,6 +76,7 @@ impl Panes<'_> {
                 scrub::show(ui, self.state, self.commands);
             });
         }
+        annotating::hint_bar(ui, self.state);
         let is_in_locked = annotating::locked_views(ui, self.state, self.is_gpu, self.commands);
         let answer = view3d::show(ui, self.state, self.is_gpu, self.commands);
         *self.viewport = Some(answer.viewport);
@@ -89,7 +90,7 @@ impl Panes<'_> {
         let (state, commands) = (self.state, &mut *self.commands);
         let is_free = matches!(pane, Pane::View | Pane::Files | Pane::Parameters | Pane::TrueAxis);
         if state.annotating.is_blind && !is_free {
-            notice::hidden(ui, commands);
+            notice::hidden(ui);
             return;
         }
         match pane {

@@ -5,7 +5,7 @@ use egui::{
 };
 use glam::DVec2;
 
-use super::annotating::{Stage, hints};
+use super::annotating::Stage;
 use super::paint::ViewCallback;
 use crate::app::annotating::EditView;
 use crate::app::why::{why, why_lines};
@@ -228,7 +228,6 @@ fn notices(ui: &egui::Ui, rect: Rect, state: &State) {
     if state.tool == Tool::MoveCenter {
         lines.push("Drag to move the fruit center; Esc ends it.".into());
     }
-    lines.extend(hints(state));
     let mut at = rect.min + vec2(12.0, 12.0);
     for line in lines {
         let color = ui.visuals().strong_text_color();

@@ -1,7 +1,6 @@
 //! What the mouse and the keys do.
 
 use axiscope::annotate::Method;
-use egui::Role;
 
 use super::*;
 
@@ -159,10 +158,7 @@ fn typed_numbers_move_an_end() {
 fn buttons_do_what_keys_do() {
     let (_folder, paths) = folder(1);
     let mut harness = window(&paths, SIZE);
-    let switch = harness
-        .get_by_role_and_label(Role::Tab, "True axes")
-        .rect()
-        .center();
+    let switch = harness.get_by_label("True axes").rect().center();
     click(&mut harness, switch);
     let begin = harness.get_by_label("Set the axis").rect().center();
     click(&mut harness, begin);

@@ -14,7 +14,7 @@ use axiscope::app::annotating::{EditView, Handle};
 use axiscope::app::{Annotating, Command, Session, State};
 use axiscope::io::{DiskFiles, Fruit, PeduncleChoice};
 use axiscope::ui::{Start, Window};
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, pos2, vec2};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, SnapshotOptions};
 use glam::DVec2;
@@ -199,8 +199,4 @@ fn snapshot(harness: &mut Harnessed, name: &str) {
 fn pixel_in(rect: egui::Rect, at: Pos2) -> DVec2 {
     let from = at - rect.min;
     DVec2::new(from.x.into(), from.y.into())
-}
-
-fn at(x: f32, y: f32) -> Pos2 {
-    pos2(x, y)
 }

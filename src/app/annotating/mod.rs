@@ -104,7 +104,7 @@ pub enum Saving {
 }
 
 /// What a restart keeps.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct KeptAnnotating {
     /// The annotator's name.
@@ -115,6 +115,18 @@ pub struct KeptAnnotating {
     pub step: usize,
     /// What checks the axis.
     pub ghost: Ghost,
+}
+
+impl Default for KeptAnnotating {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            is_blind: false,
+            // One degree.
+            step: 1,
+            ghost: Ghost::Off,
+        }
+    }
 }
 
 /// Everything about axes set by hand that there is to show.

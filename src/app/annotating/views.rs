@@ -125,7 +125,7 @@ pub(super) fn locked_cameras(subject: &Subject, ends: Option<&Ends>) -> [Camera;
     });
     let reach = ends.map_or(0.0, |ends| {
         let end = |p: DVec3| (p - target).length();
-        1.12 * end(ends.peduncle_base()).max(end(ends.blossom_end()))
+        1.22 * end(ends.peduncle_base()).max(end(ends.blossom_end()))
     });
     [(front, up), (up.cross(front), up), (-up, front)].map(|(forward, up)| {
         let mut camera = Camera::along(forward, up, target, size);

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod ask;
+mod hints;
 mod keys;
 mod locked;
 mod own;
@@ -9,10 +10,11 @@ mod panel;
 mod stage;
 
 pub(super) use ask::{Farewell, ask_name};
+pub(super) use hints::show as hint_bar;
 pub(super) use keys::{actions, history};
 pub(super) use locked::show as locked_views;
 pub use panel::show;
-pub(super) use stage::{Stage, hints};
+pub(super) use stage::Stage;
 
 use crate::app::{AnnotateCommand, Command};
 use crate::render::Color;

@@ -223,9 +223,10 @@ fn changes(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 fn ghost(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let tip = "The cloud once more in gray (G). Where the axis is true, it lies on the cloud, as far as both are \
                seen.";
-    row(ui, "Ghost", tip, |ui| {
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Ghost").on_hover_text(tip);
         for (ghost, text, tip) in [
-            (Ghost::Off, "none", "Only the cloud"),
+            (Ghost::Off, "off", "Only the cloud"),
             (Ghost::Turned, "turned", "Turned by 180° about the axis"),
             (
                 Ghost::Mirrored,

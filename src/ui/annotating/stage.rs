@@ -114,13 +114,7 @@ impl Stage<'_> {
         let annotating = &state.annotating;
         let painter = ui.painter().with_clip_rect(self.rect);
         if annotating.shows_all {
-            for (i, annotation) in annotating.annotations.iter().enumerate() {
-                let is_own = annotating.is_editing
-                    && annotating.author().is_ok_and(|author| annotation.is_by(&author));
-                if !is_own {
-                    self.other(&painter, annotation, i);
-                }
-            }
+            self.others(&painter, state);
         }
         if !annotating.is_editing {
             return;
@@ -201,20 +195,40 @@ impl Stage<'_> {
         }
     }
 
-    fn other(&self, painter: &Painter, annotation: &Annotation, i: usize) {
-        let Some(ends) = annotation.ends() else { return };
-        let color = other_color(annotation, i);
-        let (base, blossom) = (ends.peduncle_base(), ends.blossom_end());
-        self.line(painter, base, blossom, color, 2.0);
-        if let (Some(at), EditView::Main) = (self.place(base), self.view) {
-            painter.circle(at, 4.0, color32(color), Stroke::new(1.5, HALO));
-            let name = match annotation.role {
-                Role::Annotator => annotation.annotator.clone(),
-                Role::Adjudicator => format!("adjudicated ({})", annotation.annotator),
+    /// Everybody else's axes, and in the large view whose they are.
+    fn others(&self, painter: &Painter, state: &State) {
+        let annotating = &state.annotating;
+        let own = annotating.author().ok().filter(|_| annotating.is_editing);
+        let mut names = Vec::new();
+        for (i, annotation) in annotating.annotations.iter().enumerate() {
+            let is_own = own.as_ref().is_some_and(|author| annotation.is_by(author));
+            let Some(ends) = annotation.ends().filter(|_| !is_own) else {
+                continue;
             };
-            // Names of axes that lie close are staggered.
-            let shift = vec2(9.0, -16.0 * (i % 4) as f32);
-            write(painter, self.rect, &name, at + shift, color32(color));
+            let color = other_color(annotation, i);
+            self.line(painter, ends.peduncle_base(), ends.blossom_end(), color, 2.0);
+            if let (Some(at), EditView::Main) = (self.place(ends.peduncle_base()), self.view) {
+                painter.circle(at, 4.0, color32(color), Stroke::new(1.5, HALO));
+                let name = match annotation.role {
+                    Role::Annotator => annotation.annotator.clone(),
+                    Role::Adjudicator => format!("{}, adjudicated", annotation.annotator),
+                };
+                names.push((at, name, color32(color)));
+            }
+        }
+        // Above the ends, and above one another where they lie close.
+        names.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
+        let mut taken: Vec<Rect> = Vec::new();
+        for (at, name, color) in names {
+            let mut place = at - vec2(0.0, 18.0);
+            let size = vec2(7.0 * name.chars().count() as f32 + 12.0, 18.0);
+            let around = |place: Pos2| Rect::from_min_size(place - vec2(4.0, 9.0), size);
+            while taken.iter().any(|other| other.intersects(around(place))) {
+                place.y -= 19.0;
+            }
+            taken.push(around(place));
+            painter.line_segment([at, place], Stroke::new(1.0, color));
+            write(painter, self.rect, &name, place, color);
         }
     }
 }
@@ -241,43 +255,4 @@ fn write(painter: &Painter, within: Rect, text: &str, at: Pos2, color: Color32) 
     plate = plate.translate(-over);
     painter.rect_filled(plate, 3.0, Color32::from_black_alpha(200));
     painter.galley(plate.min + vec2(4.0, 2.0), galley, color);
-}
-
-/// What the view says of edit mode and of blind mode.
-pub(in crate::ui) fn hints(state: &State) -> Vec<String> {
-    let annotating = &state.annotating;
-    let mut lines = Vec::new();
-    if annotating.is_blind {
-        lines.push(if annotating.was_seen {
-            "Blind mode. This cloud was shown with its computed axis before: an axis of it is not recorded as \
-             blind."
-                .into()
-        } else {
-            "Blind mode: everything computed is hidden (Shift+B).".to_owned()
-        });
-    }
-    if !annotating.is_editing {
-        return lines;
-    }
-    let what = match (annotating.next_end(), annotating.draft) {
-        _ if annotating.subject.is_none() => "Setting the true axis: waiting for the cloud …",
-        (Some(Handle::BlossomEnd), _) => {
-            "Click the blossom end. The ring in the small views shows how deep it lands; Esc drops the base."
-        }
-        (Some(_), _) => {
-            "Click the peduncle's base. It lands inside, as deep as the fruit's middle: see the small views."
-        }
-        (None, _) if annotating.set_ends().is_none() => {
-            "Recorded: the axis cannot be told. Ctrl+Z takes it back, S sets an axis after all."
-        }
-        (None, _) => {
-            "Drag an end or the middle, here or in a small view. Arrows turn by 1°, with Shift 5°, with Alt \
-             0.1°; S sets both anew."
-        }
-    };
-    lines.push(what.into());
-    lines.push(
-        "The left button sets the axis. Right drag turns the view, middle drag moves it; T ends.".into(),
-    );
-    lines
 }
