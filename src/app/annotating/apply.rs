@@ -72,7 +72,7 @@ impl App {
             AnnotateCommand::Start(method) => self.start(method),
             AnnotateCommand::Ghost(ghost) => annotating.ghost = ghost,
             AnnotateCommand::Confidence(confidence) => {
-                self.change(|judgment| judgment.confidence = confidence)
+                self.change(|judgment| judgment.confidence = confidence);
             }
             AnnotateCommand::Note(note) => self.change(|judgment| judgment.note = note),
             AnnotateCommand::CannotTell => {
@@ -212,9 +212,9 @@ impl App {
                 self.state.annotating.draft = Draft::None;
                 let (confidence, note) = self.carried();
                 self.edit(Judgment {
+                    method,
                     confidence,
                     note,
-                    method,
                     ..Judgment::by_hand(ends)
                 });
             }

@@ -50,22 +50,23 @@ impl State {
 impl Command {
     /// Whether it shows what was computed, or is about that alone.
     pub fn reveals(&self) -> bool {
-        match self {
+        use crate::app::AnnotateCommand::{ShowAll, Start};
+        matches!(
+            self,
             Self::LookAt(_)
-            | Self::Step(_)
-            | Self::StepRank(_)
-            | Self::Preview(Some(_))
-            | Self::Play(true)
-            | Self::MoveCenter(_)
-            | Self::Use(super::super::Tool::MoveCenter)
-            | Self::View(ViewPreset::Normal | ViewPreset::Axis) => true,
-            Self::Annotate(super::AnnotateCommand::Start(_) | super::AnnotateCommand::ShowAll(true)) => true,
-            _ => false,
-        }
+                | Self::Step(_)
+                | Self::StepRank(_)
+                | Self::Preview(Some(_))
+                | Self::Play(true)
+                | Self::MoveCenter(_)
+                | Self::Use(crate::app::Tool::MoveCenter)
+                | Self::View(ViewPreset::Normal | ViewPreset::Axis)
+                | Self::Annotate(Start(_) | ShowAll(true))
+        )
     }
 }
 
-/// Whether a coloring or overlay of these shows what was computed.
+/// Whether an overlay shows what was computed.
 pub fn overlay_reveals(overlay: Overlay) -> bool {
     COMPUTED.contains(&overlay)
 }

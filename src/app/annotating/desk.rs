@@ -114,10 +114,10 @@ impl Desk {
         let files = Box::new(DiskFiles::default());
         match Store::open(files, path, cloud.clone(), *unit, self.author.clone()) {
             Ok((store, writable)) => {
-                self.problem = writable.err().map(told);
+                self.problem = writable.err().as_ref().map(told);
                 self.store = Some(store);
             }
-            Err(error) => self.problem = Some(told(error)),
+            Err(error) => self.problem = Some(told(&error)),
         }
     }
 
@@ -143,7 +143,7 @@ impl Desk {
         if outcome.is_ok() {
             outcome = store.save();
         }
-        self.problem = outcome.err().map(told);
+        self.problem = outcome.err().as_ref().map(told);
     }
 
     fn is_settled(&self) -> bool {
@@ -275,7 +275,7 @@ impl Keeper {
 }
 
 /// It begins with a file's name, whose letters stay as they are.
-fn told(error: StoreError) -> String {
+fn told(error: &StoreError) -> String {
     format!("{error}.")
 }
 

@@ -84,6 +84,8 @@ pub struct Subject {
     pub middle: DVec3,
     /// What the bulk of its points spans.
     pub extent: Extent,
+    /// Some of the bulk's points, for framing.
+    pub sample: Arc<[DVec3]>,
     /// Where the depth camera was.
     pub viewpoint: DVec3,
 }

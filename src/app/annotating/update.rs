@@ -9,6 +9,8 @@ use super::desk::{Deed, Keeper, Place, Report};
 use super::scenes::{Scenes, Wanted, scenes};
 use super::views::locked_cameras;
 use super::{Draft, Saving, Subject};
+use glam::DVec3;
+
 use crate::annotate::{Author, CloudAgreement, CloudId, FAR_OFF_DEG};
 use crate::app::queue::Queue;
 use crate::app::stages::Source;
@@ -19,6 +21,9 @@ use crate::geometry::Cancelled;
 use crate::io::Fruit;
 use crate::method::fit_sphere;
 use crate::view::ShownPoints;
+
+/// Points that tell how large a locked view has to be.
+const FOR_FRAMING: usize = 400;
 
 /// Points that tell where the middle of a fruit lies.
 const FOR_MIDDLE: usize = 5_000;
@@ -85,7 +90,12 @@ impl App {
             .filter(|center| center.distance(extent.center()) < 0.5 * size)
             .unwrap_or(extent.center());
         let path = fruit.file.path.clone();
+        let step = sample.len().div_ceil(FOR_FRAMING).max(1);
+        let margin = 0.1 * extent.size();
+        let (least, most) = (extent.min - margin, extent.max + margin);
+        let is_bulk = |p: &DVec3| p.cmpge(least).all() && p.cmple(most).all();
         annotating.subject = Some(Subject {
+            sample: sample.iter().copied().filter(is_bulk).step_by(step).collect(),
             cloud: CloudId {
                 file: path.file_name().unwrap_or_default().to_string_lossy().into(),
                 sha256: fruit.file.sha256.clone(),

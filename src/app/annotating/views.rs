@@ -118,19 +118,24 @@ pub(super) fn locked_cameras(subject: &Subject, ends: Option<&Ends>) -> [Camera;
     let front = (ray - ray.dot(up) * up)
         .try_normalize()
         .unwrap_or_else(|| up.any_orthonormal_vector());
+    // What the fruit and the axis span along the axis, and how far they reach from it.
+    let on_axis = ends.map_or(subject.middle, Ends::middle);
+    let of_ends = ends.map(|ends| [ends.peduncle_base(), ends.blossom_end()]);
+    let (mut low, mut high, mut reach) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for &p in subject.sample.iter().chain(of_ends.iter().flatten()) {
+        let along = (p - on_axis).dot(up);
+        (low, high) = (low.min(along), high.max(along));
+        reach = reach.max((p - on_axis - along * up).length());
+    }
     let size = subject.extent.size().length().max(1e-9);
-    // The point of the axis beside the fruit's middle.
-    let target = ends.map_or(subject.middle, |ends| {
-        ends.middle() + (subject.middle - ends.middle()).dot(up) * up
-    });
-    let reach = ends.map_or(0.0, |ends| {
-        let end = |p: DVec3| (p - target).length();
-        1.22 * end(ends.peduncle_base()).max(end(ends.blossom_end()))
-    });
+    // In steps, so that a nudge does not zoom.
+    let step = 0.05 * size;
+    let half = ((1.1 * reach.max(0.5 * (high - low))) / step).ceil().max(1.0) * step;
+    let target = on_axis + 0.5 * (low + high) * up;
     [(front, up), (up.cross(front), up), (-up, front)].map(|(forward, up)| {
         let mut camera = Camera::along(forward, up, target, size);
         camera.projection = Projection::Orthographic;
-        camera.focus_distance = reach.max(0.52 * size) / (0.5 * camera.vertical_fov_rad).tan();
+        camera.focus_distance = half / (0.5 * camera.vertical_fov_rad).tan();
         camera
     })
 }

@@ -84,7 +84,8 @@ fn people(ui: &mut Ui, annotations: &[Annotation], agreement: Option<&CloudAgree
                     tip.push_str(", blind");
                 }
                 if !judgment.note.is_empty() {
-                    tip.push_str(&format!("\n{}", judgment.note));
+                    tip.push('\n');
+                    tip.push_str(&judgment.note);
                 }
                 ui.label(text).on_hover_text(tip);
                 let angle = annotation.ends().zip(mean).map(|(ends, mean)| {
