@@ -741,3 +741,40 @@ fn a_name_that_cannot_be_one_begins_nothing() {
     settle(&mut app);
     app.update(Duration::ZERO);
 }
+
+#[test]
+fn a_cloud_that_cannot_be_analyzed_can_be_annotated() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("few.ply");
+    let head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    std::fs::write(&path, format!("{head}0 0 50\n0 4 51\n")).expect("written");
+    let mut app = editing(&[path.clone()]);
+    assert!(app.state().walked.is_none() && app.state().look.is_some());
+    set_by_clicks(&mut app);
+    assert!(on_disk(&path, &ada()).is_some());
+    annotate(&mut app, AnnotateCommand::Start(Method::FromComputed));
+    assert!(
+        app.state()
+            .messages
+            .iter()
+            .any(|message| message.text.contains("not analyzed"))
+    );
+}
+
+#[test]
+fn clicks_land_as_deep_as_the_fruit_s_axis_truly_lies() {
+    let (_folder, paths) = folder(1);
+    let mut app = app();
+    act(&mut app, Command::Open(paths));
+    let state = app.state();
+    let subject = state.annotating.subject.as_ref().expect("a cloud");
+    let truth = state
+        .references
+        .iter()
+        .find(|r| r.source == AxisSource::Simulation);
+    let truth = truth.expect("simulated");
+    let ray = (subject.extent.center() - subject.viewpoint).normalize();
+    let off = (subject.middle - truth.origin).dot(ray).abs();
+    // In centimeters; the fruit is some 8 wide.
+    assert!(off < 1.5, "{off}");
+}

@@ -8,6 +8,7 @@ mod apply;
 mod blind;
 mod commands;
 mod desk;
+mod middle;
 mod scenes;
 mod update;
 mod views;
@@ -79,8 +80,8 @@ pub struct Subject {
     pub cloud: CloudId,
     /// The unit of its coordinates.
     pub unit: Unit,
-    /// About where its middle lies: the center of the sphere through its points. It gives a click its
-    /// depth, and has nothing to do with the method's fruit center.
+    /// About where its middle lies, by what is seen of it. It gives a click its depth, and has nothing to
+    /// do with the method's fruit center.
     pub middle: DVec3,
     /// What the bulk of its points spans.
     pub extent: Extent,

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use super::agreement::{SetReport, compare, set_by};
 use super::desk::{Deed, Keeper, Place, Report};
+use super::middle::middle;
 use super::scenes::{Scenes, Wanted, scenes};
 use super::views::locked_cameras;
 use super::{Draft, Saving, Subject};
@@ -19,14 +20,13 @@ use crate::app::{App, PATIENCE, Walked};
 use crate::evaluate::{compared, sentence};
 use crate::geometry::Cancelled;
 use crate::io::Fruit;
-use crate::method::fit_sphere;
 use crate::view::ShownPoints;
 
 /// Points that tell how large a locked view has to be.
 const FOR_FRAMING: usize = 400;
 
 /// Points that tell where the middle of a fruit lies.
-const FOR_MIDDLE: usize = 5_000;
+const FOR_MIDDLE: usize = 4_000;
 
 /// What works for annotators beside the interface.
 pub(in crate::app) struct Annotator {
@@ -80,15 +80,19 @@ impl App {
             annotating.subject = None;
             return;
         }
+        let viewpoint = self.state.settings.request.params.viewpoint;
+        let is_known = annotating.subject.as_ref().is_some_and(|known| {
+            known.path == fruit.file.path
+                && known.cloud.sha256 == fruit.file.sha256
+                && (known.unit, known.viewpoint) == (fruit.unit, viewpoint)
+        });
+        if is_known {
+            return;
+        }
         let step = shown.len().div_ceil(FOR_MIDDLE).max(1);
         let sample: Vec<_> = shown.positions.iter().step_by(step).copied().collect();
         let extent = shown.extent;
-        let size = extent.size().length();
-        // Far from the points it is none of theirs.
-        let middle = fit_sphere(&sample)
-            .map(|(center, _)| center)
-            .filter(|center| center.distance(extent.center()) < 0.5 * size)
-            .unwrap_or(extent.center());
+        let middle = middle(&sample, &extent, viewpoint);
         let path = fruit.file.path.clone();
         let step = sample.len().div_ceil(FOR_FRAMING).max(1);
         let margin = 0.1 * extent.size();
@@ -104,7 +108,7 @@ impl App {
             unit: fruit.unit,
             middle,
             extent,
-            viewpoint: self.state.settings.request.params.viewpoint,
+            viewpoint,
         });
     }
 

@@ -63,11 +63,13 @@ fn editing(state: &State) -> Vec<String> {
     let what = match (annotating.next_end(), annotating.draft) {
         _ if annotating.subject.is_none() => "Waiting for the cloud …",
         (Some(Handle::BlossomEnd), _) => {
-            "Click the blossom end. The ring in the small views shows how deep it lands. Esc drops the base."
+            "Click the blossom end. The ring in the small views shows how deep it lands. Shift: on the surface. \
+             Esc drops the base."
         }
         (Some(_), Draft::Anew) => "Set anew: click the peduncle's base. Esc keeps the axis as it is.",
         (Some(_), _) => {
-            "Click the peduncle's base. It lands as deep as the fruit's middle: the small views show it."
+            "Click the peduncle's base. It lands as deep as the fruit's middle, as the small views show; with \
+             Shift on the surface."
         }
         (None, _) if annotating.set_ends().is_none() => {
             "Recorded: the axis cannot be told. Ctrl+Z takes it back, S sets an axis after all."

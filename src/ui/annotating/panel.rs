@@ -96,12 +96,6 @@ fn mode(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             say(commands, AnnotateCommand::Blind(is_blind));
         }
     });
-    if annotating.is_editing && annotating.is_blind && annotating.was_seen {
-        caution(
-            ui,
-            "This cloud was shown with its computed axis before, so that its axis is not recorded as blind.",
-        );
-    }
     if matches!(state.source(), Some(Source::Bundled(_))) {
         hint(
             ui,

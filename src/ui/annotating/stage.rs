@@ -44,7 +44,19 @@ impl Stage<'_> {
             return false;
         }
         let hover = response.hover_pos().map(|at| self.local(at));
-        let landing_at = |pixel| annotating.landing_at(pixel, self.camera, self.viewport);
+        // With Shift on the surface under the cursor, else inside the fruit.
+        let on_surface = self.view == EditView::Main && ui.input(|i| i.modifiers.shift);
+        let surface = on_surface.then(|| {
+            let shown = state.look.as_ref().map(|look| &look.shown);
+            state
+                .pointed_at
+                .zip(shown)
+                .and_then(|(i, shown)| shown.positions.get(i).copied())
+        });
+        let landing_at = |pixel| {
+            let inside = annotating.landing_at(pixel, self.camera, self.viewport);
+            surface.unwrap_or(inside)
+        };
         if annotating.next_end().is_some() {
             let landing = hover.and_then(landing_at);
             if landing.is_some() && landing != annotating.landing {
@@ -52,6 +64,11 @@ impl Stage<'_> {
             }
             if hover.is_some() {
                 ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
+            }
+            if on_surface && hover.is_some() {
+                commands.push(Command::PointAt(hover));
+            } else if state.pointed_at.is_some() && self.view == EditView::Main {
+                commands.push(Command::PointAt(None));
             }
             let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
             if let Some(landing) = clicked.and_then(|at| landing_at(self.local(at))) {
@@ -214,6 +231,27 @@ impl Stage<'_> {
                     Role::Adjudicator => format!("{}, adjudicated", annotation.annotator),
                 };
                 names.push((at, name, color32(color)));
+            }
+        }
+        let mean = annotating
+            .agreement
+            .as_ref()
+            .and_then(|agreement| agreement.mean.as_ref());
+        if let (Some(mean), Some(subject)) = (mean.filter(|mean| mean.count > 1), &annotating.subject) {
+            let half = 0.5 * subject.extent.size().length() * mean.direction;
+            let ends = [mean.origin - half, mean.origin + half].map(|p| self.place(p));
+            if let [Some(from), Some(to)] = ends {
+                for (width, color) in [(4.0, HALO), (2.0, Color32::WHITE)] {
+                    painter.extend(Shape::dashed_line(
+                        &[from, to],
+                        Stroke::new(width, color),
+                        7.0,
+                        5.0,
+                    ));
+                }
+                if self.view == EditView::Main {
+                    names.push((to, "mean".into(), Color32::WHITE));
+                }
             }
         }
         // Above the ends, and above one another where they lie close.
