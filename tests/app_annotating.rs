@@ -748,7 +748,7 @@ fn a_cloud_that_cannot_be_analyzed_can_be_annotated() {
     let path = folder.path().join("few.ply");
     let head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
     std::fs::write(&path, format!("{head}0 0 50\n0 4 51\n")).expect("written");
-    let mut app = editing(&[path.clone()]);
+    let mut app = editing(std::slice::from_ref(&path));
     assert!(app.state().walked.is_none() && app.state().look.is_some());
     set_by_clicks(&mut app);
     assert!(on_disk(&path, &ada()).is_some());

@@ -156,7 +156,7 @@ fn editing(state: &State) -> Vec<Action> {
         ),
         (
             action(
-                "Ghost of the cloud: turned, mirrored, none",
+                "Check with a ghost of the cloud",
                 AnnotateCommand::Ghost(annotating.ghost.next()),
             )
             .when(can),
