@@ -211,3 +211,44 @@ fn keys_that_edit_mode_takes_are_listed_once() {
         }
     }
 }
+
+#[test]
+fn a_number_that_is_dragged_is_one_step() {
+    let (_folder, paths) = folder(1);
+    let mut harness = window(&paths, SIZE);
+    press(&mut harness, Modifiers::NONE, Key::T);
+    let before = set_by_clicks(&mut harness);
+    let field = harness.get_by_label("Peduncle base Y in cm").rect().center();
+    drag(&mut harness, PointerButton::Primary, field, vec2(40.0, 0.0));
+    let after = annotating(&harness).set_ends().expect("an axis");
+    assert!(after.peduncle_base().y > before.peduncle_base().y + 0.5);
+    assert_eq!(after.blossom_end(), before.blossom_end());
+    assert!(annotating(&harness).moving.is_none());
+    assert_eq!(annotating(&harness).reach.undo_steps(), 2);
+    let length = harness.get_by_label("Length of the axis").rect().center();
+    drag(&mut harness, PointerButton::Primary, length, vec2(30.0, 0.0));
+    let longer = annotating(&harness).set_ends().expect("an axis");
+    assert!(longer.length() > after.length() + 0.1);
+    assert!(longer.middle().distance(after.middle()) < 1e-9);
+    assert_eq!(annotating(&harness).reach.undo_steps(), 3);
+}
+
+#[test]
+fn with_shift_an_end_lands_on_the_surface() {
+    let (_folder, paths) = folder(1);
+    let mut harness = window(&paths, SIZE);
+    press(&mut harness, Modifiers::NONE, Key::T);
+    let middle = view(&harness).lerp_inside(vec2(0.5, 0.6));
+    harness.event(Event::PointerMoved(middle));
+    settle(&mut harness);
+    let inside = annotating(&harness).landing.expect("inside");
+    harness.event(Event::ModifiersChanged(Modifiers::SHIFT));
+    move_to(&mut harness, middle + vec2(1.0, 0.0));
+    settle(&mut harness);
+    let landing = annotating(&harness).landing.expect("on the surface");
+    let state = state(&harness);
+    let positions = &state.shown().expect("points").positions;
+    assert!(positions.contains(&landing));
+    let depth = |place| state.camera.depth_of(place);
+    assert!(depth(landing) < depth(inside) - 1.0, "nearer to the viewer");
+}

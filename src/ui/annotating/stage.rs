@@ -65,10 +65,8 @@ impl Stage<'_> {
             if hover.is_some() {
                 ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
             }
-            if on_surface && hover.is_some() {
-                commands.push(Command::PointAt(hover));
-            } else if state.pointed_at.is_some() && self.view == EditView::Main {
-                commands.push(Command::PointAt(None));
+            if self.view == EditView::Main {
+                ask_for_surface(ui, response.id, hover.filter(|_| on_surface), state, commands);
             }
             let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
             if let Some(landing) = clicked.and_then(|at| landing_at(self.local(at))) {
@@ -293,4 +291,22 @@ fn write(painter: &Painter, within: Rect, text: &str, at: Pos2, color: Color32) 
     plate = plate.translate(-over);
     painter.rect_filled(plate, 3.0, Color32::from_black_alpha(200));
     painter.galley(plate.min + vec2(4.0, 2.0), galley, color);
+}
+
+/// Asks which point is under the cursor, where that has changed: finding it takes a walk over all of them.
+fn ask_for_surface(
+    ui: &egui::Ui,
+    view: egui::Id,
+    at: Option<DVec2>,
+    state: &State,
+    commands: &mut Vec<Command>,
+) {
+    let memory = view.with("asked for the surface");
+    let asked = ui.data(|data| data.get_temp::<Option<DVec2>>(memory)).flatten();
+    if asked != at {
+        ui.data_mut(|data| data.insert_temp(memory, at));
+        commands.push(Command::PointAt(at));
+    } else if at.is_none() && state.pointed_at.is_some() {
+        commands.push(Command::PointAt(None));
+    }
 }
