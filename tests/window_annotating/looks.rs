@@ -87,6 +87,13 @@ fn everybody_s_axes_are_compared() {
     annotate(&mut harness, AnnotateCommand::CompareSet);
     harness.remove_cursor();
     snapshot(&mut harness, "agreement");
+    // Over the set.
+    for section in ["This cloud", "All open clouds"] {
+        let at = harness.get_by_label(section).rect().left_center() + vec2(40.0, 0.0);
+        click(&mut harness, at);
+    }
+    harness.remove_cursor();
+    snapshot(&mut harness, "agreement_set");
 }
 
 #[cfg(unix)]

@@ -219,19 +219,41 @@ fn summary(ui: &mut Ui, state: &State, report: &SetReport, commands: &mut Vec<Co
                 ui.end_row();
             }
         });
-    for pair in &set.pairs {
-        hint(
-            ui,
-            format!(
-                "{} and {}: {:.1}° on average, {:.1}° at most, {} clouds",
-                pair.a, pair.b, pair.mean_deg, pair.largest_deg, pair.clouds
-            ),
-        );
+    if !set.pairs.is_empty() {
+        pairs_of_set(ui, report);
     }
     worst(ui, state, report, commands);
     for warning in &report.warnings {
         caution(ui, warning);
     }
+}
+
+fn pairs_of_set(ui: &mut Ui, report: &SetReport) {
+    ui.add_space(4.0);
+    Grid::new("pairs of the set")
+        .striped(true)
+        .spacing(vec2(10.0, 3.0))
+        .show(ui, |ui| {
+            ui.weak("pair");
+            ui.weak("mean")
+                .on_hover_text("The mean of the angles between their axes");
+            ui.weak("largest").on_hover_text("The largest of these angles");
+            ui.weak("clouds").on_hover_text("Clouds with an axis of both");
+            ui.end_row();
+            for pair in &report.agreement.pairs {
+                let names = format!("{} and {}", pair.a, pair.b);
+                match pair.opposite {
+                    0 => ui.label(names),
+                    count => ui
+                        .label(format!("{names} (!)"))
+                        .on_hover_text(format!("They call opposite ends the peduncle's: {count} times")),
+                };
+                ui.label(format!("{:.1}°", pair.mean_deg));
+                ui.label(format!("{:.1}°", pair.largest_deg));
+                ui.label(pair.clouds.to_string());
+                ui.end_row();
+            }
+        });
 }
 
 /// The clouds about which annotators disagree most; a click opens one.
