@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use axiscope::annotate::{Annotation, Author, Confidence, Ends, Finding, Judgment, Method, Pivot, Role};
 use axiscope::app::annotating::{Decision, Draft, EditView, Ghost, Handle, Saving, Turn};
-use axiscope::app::{AnnotateCommand, App, Command, Sample, Session, TruthChoice};
+use axiscope::app::{AnnotateCommand, App, Command, Sample, Session, Tool, TruthChoice};
 use axiscope::method::AxisSource;
 use axiscope::render::{Projection, Viewport};
 use axiscope::view::{Coloring, Overlay, ViewPreset};
@@ -364,6 +364,15 @@ fn the_ghost_of_a_true_axis_lies_on_the_cloud() {
         let across = |v: DVec3| v - v.dot(direction) * direction;
         assert!((across(p) + across(q)).length() < 1e-5);
     }
+    // A small cloud's ghost follows while an end is dragged.
+    let ghost_before = ghost_of(&app).1;
+    annotate(
+        &mut app,
+        AnnotateCommand::Preview(before.shifted(DVec3::X).expect("an axis")),
+    );
+    assert_ne!(ghost_of(&app).1, ghost_before);
+    annotate(&mut app, AnnotateCommand::Escape);
+    assert_eq!(ghost_of(&app).1, ghost_before);
     annotate(&mut app, AnnotateCommand::Ghost(Ghost::Mirrored));
     let (cloud, ghost, _) = ghost_of(&app);
     let ray = app
@@ -698,6 +707,16 @@ fn escape_leaves_one_thing_at_a_time() {
     annotate(&mut app, AnnotateCommand::CannotTell);
     assert!(app.state().annotating.judgment().is_none());
     assert!(on_disk(&paths[0], &ada()).is_none());
+}
+
+#[test]
+fn another_tool_ends_edit_mode() {
+    let (_folder, paths) = folder(1);
+    let mut app = editing(&paths);
+    act(&mut app, Command::Use(Tool::MoveCenter));
+    assert!(!app.state().annotating.is_editing && app.state().tool == Tool::MoveCenter);
+    annotate(&mut app, AnnotateCommand::Edit(true));
+    assert!(app.state().annotating.is_editing && app.state().tool == Tool::Navigate);
 }
 
 #[test]

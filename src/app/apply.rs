@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use super::annotating::AnnotateCommand;
 use super::history::History;
 use super::navigate::{framed_camera, preset_camera, projected};
 use super::stages::{Source, Walked};
-use super::state::{Command, PlaneChoice, Settings};
+use super::state::{Command, PlaneChoice, Settings, Tool};
 use super::{App, PickQuestion};
 use crate::evaluate::Request;
 use crate::geometry::Unit;
@@ -86,7 +87,13 @@ impl App {
             Command::Project(projection) => {
                 self.state.camera = projected(&self.state.camera, projection);
             }
-            Command::Use(tool) => self.state.tool = tool,
+            Command::Use(tool) => {
+                // One thing at a time has the left button.
+                if tool != Tool::Navigate && self.state.annotating.is_editing {
+                    self.annotate(AnnotateCommand::Edit(false));
+                }
+                self.state.tool = tool;
+            }
             Command::MoveCenter(center) => {
                 let mut request = self.state.settings.request.clone();
                 request.params.center = CenterMethod::Given(center);

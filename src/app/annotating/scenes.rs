@@ -21,6 +21,8 @@ const GRAY: Color = [0xa4, 0xa6, 0xac, 255];
 pub(super) struct Wanted {
     pub(super) look: Arc<Look>,
     pub(super) ends: Option<Ends>,
+    /// The axis that the large view's ghost is of: of a large cloud it is drawn when an axis is let go.
+    pub(super) main_ends: Option<Ends>,
     pub(super) ghost: Ghost,
     /// From the depth camera to the fruit.
     pub(super) view_ray: DVec3,
@@ -30,48 +32,76 @@ pub(super) struct Wanted {
 impl PartialEq for Wanted {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.look, &other.look)
-            && (self.ends, self.ghost, self.view_ray) == (other.ends, other.ghost, other.view_ray)
+            && (self.ends, self.main_ends, self.ghost) == (other.ends, other.main_ends, other.ghost)
+            && self.view_ray == other.view_ray
             && self.pixels_per_point == other.pixels_per_point
     }
 }
 
-/// Both scenes.
-pub(super) struct Scenes {
-    /// The large view's, where there is a ghost.
-    pub(super) main: Option<Arc<Scene>>,
-    /// The locked views'.
-    pub(super) small: Arc<Scene>,
-    /// The locked views' cloud alone, which does not change with the axis.
-    pub(super) cloud: (Arc<Look>, Points),
+impl Wanted {
+    /// Whether the large view is the same.
+    fn has_main_of(&self, other: &Self) -> bool {
+        let main = |wanted: &Self| Self {
+            ends: None,
+            ..wanted.clone()
+        };
+        main(self) == main(other)
+    }
 }
 
-/// Makes them. What is left of `before` keeps its generation, and is not sent to the GPU again.
-pub(super) fn scenes(wanted: &Wanted, before: Option<(Arc<Look>, Points)>) -> Scenes {
+/// What was made before: what is left of it keeps its generation, and is not sent to the GPU again.
+#[derive(Clone)]
+pub(super) struct Made {
+    wanted: Wanted,
+    /// The large view's scene, where there is a ghost.
+    pub(super) main: Option<Arc<Scene>>,
+    /// The locked views' cloud alone, which does not change with the axis.
+    cloud: Points,
+}
+
+/// Both scenes.
+pub(super) struct Scenes {
+    pub(super) made: Made,
+    /// The locked views'.
+    pub(super) small: Arc<Scene>,
+}
+
+/// Makes them.
+pub(super) fn scenes(wanted: Wanted, before: Option<Made>) -> Scenes {
     let look = &wanted.look;
-    let kept = before.filter(|(of, points)| {
-        Arc::ptr_eq(of, look) && points.size_px == small_size(points.positions.len(), wanted.pixels_per_point)
-    });
-    let cloud = kept.map_or_else(|| thinned(look, wanted.pixels_per_point), |(_, points)| points);
+    let (cloud, main) = match before {
+        Some(made) => {
+            let is_kept = Arc::ptr_eq(&made.wanted.look, look)
+                && made.wanted.pixels_per_point == wanted.pixels_per_point;
+            let main = made.main.filter(|_| made.wanted.has_main_of(&wanted));
+            (Some(made.cloud).filter(|_| is_kept), main)
+        }
+        None => (None, None),
+    };
+    let cloud = cloud.unwrap_or_else(|| thinned(look, wanted.pixels_per_point));
+    let positions = &look.shown.local_positions;
     let mut small = (*look.scene).clone();
     (small.polygons, small.lines) = (Vec::new(), Vec::new());
     small.lines_generation = next_generation();
     small.points = vec![cloud.clone()];
-    let mut main = None;
-    if let Some(motion) = Motion::new(wanted) {
-        let of = |most: usize, size_px: f32| ghost(&look.shown.local_positions, most, size_px, &motion);
-        small.points.push(of(SMALL, 0.8 * cloud.size_px));
+    if let Some(motion) = Motion::new(&wanted, wanted.ends) {
+        small
+            .points
+            .push(ghost(positions, SMALL, 0.8 * cloud.size_px, &motion));
+        small.fit_bounds();
+    }
+    let main = main.or_else(|| {
+        let motion = Motion::new(&wanted, wanted.main_ends)?;
         let size_px = look.scene.points.first().map_or(2.0, |points| points.size_px);
         let mut scene = (*look.scene).clone();
         scene.points.truncate(1);
-        scene.points.push(of(GHOST, 0.8 * size_px));
+        scene.points.push(ghost(positions, GHOST, 0.8 * size_px, &motion));
         scene.fit_bounds();
-        small.bounds = scene.bounds;
-        main = Some(Arc::new(scene));
-    }
+        Some(Arc::new(scene))
+    });
     Scenes {
-        main,
         small: Arc::new(small),
-        cloud: (look.clone(), cloud),
+        made: Made { wanted, main, cloud },
     }
 }
 
@@ -108,8 +138,8 @@ enum Motion {
 }
 
 impl Motion {
-    fn new(wanted: &Wanted) -> Option<Self> {
-        let ends = wanted.ends.filter(|_| wanted.ghost != Ghost::Off)?;
+    fn new(wanted: &Wanted, ends: Option<Ends>) -> Option<Self> {
+        let ends = ends.filter(|_| wanted.ghost != Ghost::Off)?;
         let middle = ends.middle() - wanted.look.shown.extent.center();
         Some(match wanted.ghost {
             Ghost::Mirrored => Self::Mirrored {

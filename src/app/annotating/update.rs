@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::agreement::{SetReport, compare, set_by};
 use super::desk::{Deed, Keeper, Place, Report};
 use super::middle::middle;
-use super::scenes::{Scenes, Wanted, scenes};
+use super::scenes::{Made, Scenes, Wanted, scenes};
 use super::views::locked_cameras;
 use super::{Draft, Saving, Subject};
 use glam::DVec3;
@@ -25,6 +25,9 @@ use crate::view::ShownPoints;
 /// Points that tell how large a locked view has to be.
 const FOR_FRAMING: usize = 400;
 
+/// Points up to which the large view's ghost follows a drag.
+const LIVE_GHOST: usize = 60_000;
+
 /// Points that tell where the middle of a fruit lies.
 const FOR_MIDDLE: usize = 4_000;
 
@@ -38,7 +41,7 @@ pub(in crate::app) struct Annotator {
     turned_to: Option<(Place, Option<Author>)>,
     scenes: Lane<Scenes>,
     scenes_asked: Option<Wanted>,
-    cloud: Option<(Arc<crate::app::look::Look>, crate::render::Points)>,
+    made: Option<Made>,
     set: Lane<Result<SetReport, Cancelled>>,
     mine: Lane<Vec<bool>>,
     mine_asked: Option<(Author, usize, Option<PathBuf>)>,
@@ -53,7 +56,7 @@ impl Annotator {
             turned_to: None,
             scenes: Lane::new("ghost", repaint.clone())?,
             scenes_asked: None,
-            cloud: None,
+            made: None,
             set: Lane::new("agreement", repaint.clone())?,
             mine: Lane::new("progress", repaint.clone())?,
             mine_asked: None,
@@ -142,27 +145,33 @@ impl App {
         else {
             (annotating.small_scene, annotating.ghost_scene) = (None, None);
             self.annotator.scenes_asked = None;
+            self.annotator.made = None;
             return;
+        };
+        let has_ghost = annotating.ghost != super::Ghost::Off;
+        let main_ends = if look.shown.len() > LIVE_GHOST {
+            annotating.set_ends()
+        } else {
+            annotating.ends()
         };
         let wanted = Wanted {
             look: look.clone(),
-            ends: annotating
-                .ends()
-                .filter(|_| annotating.ghost != super::Ghost::Off),
+            ends: annotating.ends().filter(|_| has_ghost),
+            main_ends: main_ends.filter(|_| has_ghost),
             ghost: annotating.ghost,
             view_ray: subject.extent.center() - subject.viewpoint,
             pixels_per_point: self.state.pixels_per_point,
         };
         if self.annotator.scenes_asked.as_ref() != Some(&wanted) {
             self.annotator.scenes_asked = Some(wanted.clone());
-            let cloud = self.annotator.cloud.take();
-            self.annotator.scenes.submit(move |_| scenes(&wanted, cloud));
+            let before = self.annotator.made.clone();
+            self.annotator.scenes.submit(move |_| scenes(wanted, before));
         }
-        if let Some((_, Ok(made))) = self.annotator.scenes.take_within(PATIENCE) {
+        if let Some((_, Ok(Scenes { made, small }))) = self.annotator.scenes.take_within(PATIENCE) {
             let annotating = &mut self.state.annotating;
-            annotating.ghost_scene = made.main;
-            annotating.small_scene = Some(made.small);
-            self.annotator.cloud = Some(made.cloud);
+            annotating.ghost_scene.clone_from(&made.main);
+            annotating.small_scene = Some(small);
+            self.annotator.made = Some(made);
         }
     }
 
