@@ -63,7 +63,7 @@ const PATIENCE: Duration = Duration::from_millis(7);
 /// Planes that are played through in a second.
 const PLANES_PER_SECOND: f64 = 6.0;
 
-type Arrival = (Source, Arc<ShownPoints>);
+type Arrival = (Source, Arc<crate::io::Fruit>, Arc<ShownPoints>);
 
 type WalkResult = (Stages, Result<Walked, WalkError>);
 
@@ -256,9 +256,9 @@ impl App {
         // What another request was to show comes too late.
         while self.arrivals.1.try_recv().is_ok() {}
         self.analysis.submit(move |watch| {
-            let arrived = |shown| {
+            let arrived = |fruit: &Arc<crate::io::Fruit>, shown| {
                 // Nobody listens any more where the window has closed.
-                let _ = arrivals.send((wanted.source.clone(), shown));
+                let _ = arrivals.send((wanted.source.clone(), fruit.clone(), shown));
                 repaint();
             };
             let result = stages.walk(&wanted.source, &wanted.settings, watch, &arrived);
@@ -268,11 +268,13 @@ impl App {
     }
 
     fn take_arrivals(&mut self) {
-        while let Ok((source, shown)) = self.arrivals.1.try_recv() {
+        while let Ok((source, fruit, shown)) = self.arrivals.1.try_recv() {
             let is_current = self.state.source() == Some(&source);
             if is_current && self.analysis.progress().is_some() {
                 self.shown_generation += 1;
                 self.forget_analysis();
+                // Its axis can be set by hand meanwhile.
+                self.set_subject(&fruit, &shown);
                 self.state.unanalyzed = Some((shown, None));
                 self.frame_if_new();
             }

@@ -213,3 +213,61 @@ fn a_cloud_that_cannot_be_analyzed_can_be_annotated() {
             .any(|message| message.text.contains("not analyzed"))
     );
 }
+
+#[test]
+fn a_large_cloud_s_axis_can_be_set_before_it_is_analyzed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("large.ply");
+    let count = 120_000;
+    let head = format!(
+        "ply\nformat ascii 1.0\nelement vertex {count}\nproperty float x\nproperty float y\nproperty float z\n\
+         end_header\n"
+    );
+    let point = |i: u32| {
+        let (turn, height) = (
+            f64::from(i) * 2.399_963,
+            f64::from(i) / f64::from(count) * 2.0 - 1.0,
+        );
+        let radius = 4.0 * (1.0 - height * height).sqrt();
+        format!(
+            "{} {} {}\n",
+            radius * turn.cos(),
+            4.0 * height,
+            50.0 - (radius * turn.sin()).abs()
+        )
+    };
+    std::fs::write(&path, head + &(0..count).map(point).collect::<String>()).expect("written");
+    let mut app = app();
+    app.set_view(Viewport::new(900.0, 700.0), 1.0, true);
+    app.apply(Command::Open(vec![path.clone()]));
+    app.apply(Command::Annotate(AnnotateCommand::Edit(true)));
+    app.apply(Command::Annotate(AnnotateCommand::Name("Ada".into())));
+    let began = std::time::Instant::now();
+    while !app.state().annotating.can_edit() {
+        app.update(Duration::from_millis(16));
+        std::thread::sleep(Duration::from_millis(1));
+        assert!(began.elapsed() < Duration::from_mins(1), "it never comes");
+    }
+    assert!(
+        app.state().walked.is_none() && app.state().progress.is_some(),
+        "not analyzed yet"
+    );
+    app.apply(Command::Annotate(AnnotateCommand::Place(DVec3::new(
+        0.0, -4.0, 50.0,
+    ))));
+    app.apply(Command::Annotate(AnnotateCommand::Place(DVec3::new(
+        0.0, 4.0, 50.0,
+    ))));
+    let ends = app.state().annotating.set_ends();
+    assert!(ends.is_some());
+    app.apply(Command::Cancel);
+    settle(&mut app);
+    assert_eq!(on_disk(&path, &ada()).expect("a file").ends().copied(), ends);
+    act(&mut app, Command::Resume);
+    assert!(app.state().walked.is_some());
+    assert_eq!(
+        app.state().annotating.set_ends(),
+        ends,
+        "the analysis does not touch it"
+    );
+}
