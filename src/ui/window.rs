@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use egui::{CentralPanel, Frame, Panel, ViewportCommand};
 use egui_tiles::Tree;
 
-use super::actions::{Act, Action, WindowAct, actions};
+use super::actions::{Act, Action, Group, WindowAct, actions};
 use super::annotating;
 use super::dialogs::{self, Asked};
 use super::layout::{Pane, first_layout, is_wide, layout_from};
@@ -295,7 +295,13 @@ impl Window {
                         | egui::Key::ArrowUp
                         | egui::Key::ArrowDown
                 );
-            if is_focused && is_widgets {
+            // But a button that was clicked does not keep the axis from being turned.
+            let turns_axis = action.group == Group::TrueAxis;
+            if is_focused && is_widgets && !turns_axis {
+                continue;
+            }
+            // Closes a list or a menu first.
+            if key.logical_key == egui::Key::Escape && egui::Popup::is_any_open(ctx) {
                 continue;
             }
             let is_first = ctx.input(|i| {
