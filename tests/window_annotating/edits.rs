@@ -254,19 +254,22 @@ fn with_shift_an_end_lands_on_the_surface() {
 }
 
 #[test]
-fn a_button_that_was_clicked_does_not_take_the_arrows() {
+fn a_focused_button_does_not_take_the_arrows() {
     let (_folder, paths) = folder(1);
     let mut harness = window(&paths, SIZE);
     press(&mut harness, Modifiers::NONE, Key::T);
     set_by_clicks(&mut harness);
-    for label in ["Flip", "high"] {
+    for label in ["Flip", "high", "Hold while turning", "the blossom end"] {
         let at = harness.get_by_label(label).rect().center();
         click(&mut harness, at);
     }
+    press(&mut harness, Modifiers::NONE, Key::Tab);
+    assert!(harness.ctx.memory(egui::Memory::focused).is_some());
     let before = annotating(&harness).set_ends().expect("an axis");
     press(&mut harness, Modifiers::NONE, Key::ArrowRight);
     let after = annotating(&harness).set_ends().expect("an axis");
     assert!((after.angle_to_deg(&before) - 1.0).abs() < 1e-6);
+    assert_eq!(after.blossom_end(), before.blossom_end());
     // Escape closes a list before it leaves edit mode.
     let list = harness.get_by_label("Hold while turning").rect().center();
     click(&mut harness, list);
