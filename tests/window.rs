@@ -238,7 +238,7 @@ fn overlays_and_the_axes() {
 #[test]
 fn light_colors() {
     let mut harness = window();
-    press(&mut harness, Modifiers::NONE, Key::T);
+    press(&mut harness, Modifiers::SHIFT, Key::T);
     assert_eq!(harness.state().app().state().style.theme, Theme::Light);
     snapshot(&mut harness, "light");
 }
@@ -503,7 +503,7 @@ fn a_window_comes_back_as_it_was_left() {
     press(&mut first, Modifiers::NONE, Key::PageDown);
     press(&mut first, Modifiers::SHIFT, Key::I);
     press(&mut first, Modifiers::NONE, Key::ArrowRight);
-    press(&mut first, Modifiers::NONE, Key::T);
+    press(&mut first, Modifiers::SHIFT, Key::T);
     eframe::App::on_exit(first.state_mut());
     let left = first.state().app().state().clone();
 

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use super::annotating::AnnotateCommand;
 use super::history::History;
 use super::navigate::{framed_camera, preset_camera, projected};
 use super::stages::{Source, Walked};
-use super::state::{Command, PlaneChoice, Settings};
+use super::state::{Command, PlaneChoice, Settings, Tool};
 use super::{App, PickQuestion};
 use crate::evaluate::Request;
 use crate::geometry::Unit;
@@ -16,11 +17,16 @@ use crate::view::ViewPreset;
 impl App {
     /// Does what a panel asks for.
     pub fn apply(&mut self, command: Command) {
+        if self.state.annotating.is_blind && command.reveals() {
+            self.say(false, "Blind mode hides what is computed.".into());
+            return;
+        }
         match command {
             Command::Open(paths) => self.open(&paths),
             Command::OpenSample(sample) => {
                 let place = self.state.add(Source::Bundled(sample));
                 self.list_changed(false);
+                self.leave_subject();
                 self.show(place);
             }
             Command::Show(place) => self.show(place),
@@ -54,7 +60,10 @@ impl App {
                 }
             }
             Command::Resume => self.asked = None,
-            Command::Compare(truth) => self.state.truth = truth,
+            Command::Compare(truth) => {
+                self.state.truth = truth;
+                self.state.annotating.compared = None;
+            }
 
             Command::LookAt(plane) => self.look_at(plane),
             Command::Step(by) => self.step(by),
@@ -91,8 +100,14 @@ impl App {
             Command::Project(projection) => {
                 self.state.camera = projected(&self.state.camera, projection);
             }
-            Command::Use(tool) => self.state.tool = tool,
             Command::Peduncle(command) => self.apply_peduncle(command),
+            Command::Use(tool) => {
+                // One thing at a time has the left button.
+                if tool != Tool::Navigate && self.state.annotating.is_editing {
+                    self.annotate(AnnotateCommand::Edit(false));
+                }
+                self.state.tool = tool;
+            }
             Command::MoveCenter(center) => {
                 let mut request = self.state.settings.request.clone();
                 request.params.center = CenterMethod::Given(center);
@@ -100,6 +115,8 @@ impl App {
             }
 
             Command::Folder(command) => self.apply_folder(command),
+            Command::Annotate(command) => self.annotate(command),
+
             Command::Scale(scale) => self.state.interface_scale = scale.clamp(0.5, 3.0),
             Command::Dismiss(id) => self.state.messages.retain(|message| message.id != id),
             Command::Say { is_error, text } => self.say(is_error, text),
@@ -141,6 +158,7 @@ impl App {
         self.state.settings.plane = PlaneChoice::Best;
         self.state.is_playing = false;
         self.needs_framing = true;
+        self.leave_subject();
     }
 
     fn go(&mut self, by: isize) {
@@ -287,7 +305,8 @@ impl App {
     fn pivot(&mut self) {
         let picked = self.state.picked.zip(self.state.shown());
         let place = picked.map(|(i, shown)| shown.positions[i]);
-        let center = self.state.analysis().map(|a| a.center);
+        let is_blind = self.state.annotating.is_blind;
+        let center = self.state.analysis().map(|a| a.center).filter(|_| !is_blind);
         if let Some(pivot) = place.or(center) {
             self.state.camera.set_pivot(pivot);
         }

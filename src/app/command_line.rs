@@ -14,18 +14,19 @@ pub fn command_line(state: &State, out: &str, size_px: [u32; 2]) -> Vec<String> 
     let mut words = vec!["render".to_owned()];
     words.extend(cloud);
     words.extend(["-o".to_owned(), out.to_owned()]);
+    let style = state.shown_style();
     let mut add = |option: &str, value: String| words.extend([option.to_owned(), value]);
     let [width_px, height_px] = size_px;
     add("--size", format!("{width_px}x{height_px}"));
-    if state.style.coloring != crate::view::Coloring::Side {
-        add("--color", state.style.coloring.name().into());
+    if style.coloring != crate::view::Coloring::Side {
+        add("--color", style.coloring.name().into());
     }
     if let PlaneChoice::At { g, h } = state.settings.plane {
         add("--plane", format!("{g},{h}"));
     }
     let overlays: Vec<&str> = Overlay::ALL
         .into_iter()
-        .filter(|&overlay| state.style.overlays.has(overlay))
+        .filter(|&overlay| style.overlays.has(overlay))
         .map(Overlay::name)
         .collect();
     let overlays = if overlays.is_empty() {

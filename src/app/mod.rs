@@ -8,6 +8,7 @@
 //! It knows no window toolkit: whatever draws it calls [`App::update`] once a frame, reads [`State`],
 //! and hands in [`Command`]s.
 
+pub mod annotating;
 mod apply;
 mod caption;
 mod command_line;
@@ -21,6 +22,7 @@ mod image;
 pub mod look;
 mod navigate;
 pub mod peduncle;
+pub mod queue;
 mod samples;
 mod session;
 mod stages;
@@ -37,7 +39,7 @@ use glam::DVec2;
 
 use crate::evaluate::{compared, sentence};
 use crate::geometry::{Cancelled, Extent};
-use crate::method::PlaneDetail;
+use crate::method::{AxisEstimate, PlaneDetail};
 use crate::render::{Camera, Viewport};
 use crate::view::{ShownPoints, pick_point};
 
@@ -49,6 +51,7 @@ use navigate::framed_camera;
 use stages::{Stages, WalkError};
 use worker::{Crashed, Discard, Lane, Repaint};
 
+pub use annotating::{AnnotateCommand, Annotating};
 pub use caption::{caption, lead_in_words};
 pub use command_line::{analysis_options, command_line, quoted};
 #[cfg(feature = "window")]
@@ -68,7 +71,7 @@ const PATIENCE: Duration = Duration::from_millis(7);
 /// Planes that are played through in a second.
 const PLANES_PER_SECOND: f64 = 6.0;
 
-type Arrival = (Source, Arc<ShownPoints>);
+type Arrival = (Source, Arc<crate::io::Fruit>, Arc<ShownPoints>);
 
 type WalkResult = (Stages, Result<Walked, WalkError>);
 
@@ -90,7 +93,7 @@ struct Seen {
     style: Style,
     pixels_per_point: f32,
     brush_cm: Option<std::ops::RangeInclusive<f64>>,
-    truth: TruthChoice,
+    reference: Option<AxisEstimate>,
 }
 
 /// What a click or a hovering cursor asks.
@@ -129,6 +132,7 @@ pub struct App {
     /// The last click that was not answered yet.
     pending_click: Option<PickQuestion>,
     folder: Folder,
+    annotator: annotating::Annotator,
 }
 
 impl App {
@@ -139,6 +143,7 @@ impl App {
     /// Where the operating system starts no thread.
     pub fn new(session: Session, repaint: &Repaint) -> std::io::Result<Self> {
         let mut state = State::new(session.settings, session.style.into());
+        state.annotating = annotating::Annotating::new(session.annotating);
         state.recent = session.recent;
         state.interface_scale = session.interface_scale.clamp(0.5, 3.0);
         state.folder = FolderState::new(session.folder);
@@ -165,6 +170,7 @@ impl App {
             repaint: repaint.clone(),
             pending_click: None,
             folder: Folder::new(repaint)?,
+            annotator: annotating::Annotator::new(repaint)?,
         })
     }
 
@@ -192,6 +198,7 @@ impl App {
             || self.picks.is_busy()
             || self.images.is_busy()
             || self.peduncle.is_busy()
+            || self.annotator.is_busy()
     }
 
     /// What is to be done once a frame: takes what the workers have made, and asks for what is wanted
@@ -203,9 +210,11 @@ impl App {
         self.update_folder(elapsed);
         self.stand_aside(true);
         self.ask_for_analysis();
+        self.update_annotating();
         self.ask_for_look();
         self.update_peduncle();
         self.stand_aside(self.analysis.is_busy() || self.looks.is_busy());
+        self.update_edit_scenes();
         self.ask_for_pick();
         if let Some((_, result)) = self.images.take() {
             let (is_error, text) = match result {
@@ -272,9 +281,9 @@ impl App {
         // What another request was to show comes too late.
         while self.arrivals.1.try_recv().is_ok() {}
         self.analysis.submit(move |watch| {
-            let arrived = |shown| {
+            let arrived = |fruit: &Arc<crate::io::Fruit>, shown| {
                 // Nobody listens any more where the window has closed.
-                let _ = arrivals.send((wanted.source.clone(), shown));
+                let _ = arrivals.send((wanted.source.clone(), fruit.clone(), shown));
                 repaint();
             };
             let result = stages.walk(&wanted.source, &wanted.settings, watch, &arrived);
@@ -284,11 +293,13 @@ impl App {
     }
 
     fn take_arrivals(&mut self) {
-        while let Ok((source, shown)) = self.arrivals.1.try_recv() {
+        while let Ok((source, fruit, shown)) = self.arrivals.1.try_recv() {
             let is_current = self.state.source() == Some(&source);
             if is_current && self.analysis.progress().is_some() {
                 self.shown_generation += 1;
                 self.forget_analysis();
+                // Its axis can be set by hand meanwhile.
+                self.set_subject(&fruit, &shown);
                 self.state.unanalyzed = Some((shown, None));
                 self.frame_if_new();
             }
@@ -334,6 +345,8 @@ impl App {
         match result {
             Ok(walked) => {
                 set_problem(None);
+                self.set_subject(&walked.fruit, &walked.shown);
+                let walked = self.with_annotations(walked);
                 let request = &self.state.settings.request;
                 let (references, warnings) = compared(&walked.fruit, request, &walked.analysis);
                 let before = self.state.walked.as_ref();
@@ -359,12 +372,14 @@ impl App {
                 set_problem(Some(sentence(&error.to_string())));
                 self.state.warnings.clone_from(&fruit.warnings);
                 self.forget_analysis();
+                self.set_subject(&fruit, &shown);
                 let why = sentence(&format!("{}: {error}", self.name_of_current()));
                 self.state.unanalyzed = Some((shown, Some(why)));
             }
             Err(WalkError::Fruit(error)) => {
                 set_problem(Some(sentence(&error.reason())));
                 self.forget_analysis();
+                self.leave_subject();
                 self.say(true, sentence_of_file(&error.to_string()));
             }
             Err(WalkError::Cancelled) => self.state.was_cancelled = true,
@@ -396,20 +411,21 @@ impl App {
             self.seen = None;
             return;
         };
+        let is_blind = self.state.annotating.is_blind;
         let wanted = Seen {
             shown_generation: self.shown_generation,
-            plane: self.state.plane_index(),
-            style: self.state.style.clone(),
+            plane: self.state.plane_index().filter(|_| !is_blind),
+            style: self.state.shown_style(),
             pixels_per_point: self.state.pixels_per_point,
             brush_cm: self.state.brush_cm.clone(),
-            truth: self.state.truth,
+            reference: self.state.reference().cloned().filter(|_| !is_blind),
         };
         if self.seen.as_ref() != Some(&wanted) {
             let question = Question {
                 shown,
                 analysis: self.state.analysis().cloned(),
                 plane: wanted.plane,
-                reference: self.state.reference().cloned(),
+                reference: wanted.reference.clone(),
                 references: self.state.references.clone(),
                 style: wanted.style.clone(),
                 pixels_per_point: wanted.pixels_per_point,

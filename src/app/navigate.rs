@@ -19,7 +19,7 @@ fn framed(state: &State) -> (Vec<DVec3>, Insets) {
         return (Vec::new(), Insets::default());
     };
     let look = state.look.as_deref();
-    let style = &state.style;
+    let style = &state.shown_style();
     let page = Page {
         viewport: state.viewport,
         theme: style.theme,
@@ -48,8 +48,12 @@ fn framed(state: &State) -> (Vec<DVec3>, Insets) {
                 eye_dome_strength: 0.0,
                 plane,
                 axis: axis.as_ref(),
-                reference: state.reference(),
-                references: &state.references,
+                reference: state.reference().filter(|_| !state.annotating.is_blind),
+                references: if state.annotating.is_blind {
+                    &[]
+                } else {
+                    &state.references
+                },
             },
         ),
         (None, _) => framed_cloud(shown),
@@ -63,6 +67,9 @@ fn plane_and_axis(
     Option<crate::geometry::Plane>,
     Option<crate::method::AxisEstimate>,
 ) {
+    if state.annotating.is_blind {
+        return (None, None);
+    }
     let plane = state.analysis().zip(state.chosen_plane_index()).map(|(a, i)| {
         let normal = a.planes.grid.candidate(i).normal;
         crate::geometry::Plane {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::annotating::KeptAnnotating;
 use super::look::Style;
 use super::stages::Source;
 use super::state::{Settings, State};
@@ -31,6 +32,8 @@ pub struct Session {
     pub interface_scale: f32,
     /// The arrangement of the panels, as the window wrote it.
     pub layout: Option<String>,
+    /// The annotator's name and choices.
+    pub annotating: KeptAnnotating,
     /// The window's inner size in logical pixels.
     pub window_size: Option<[f32; 2]>,
 }
@@ -133,6 +136,7 @@ impl Session {
             folder: state.folder.kept(),
             interface_scale: state.interface_scale,
             layout: None,
+            annotating: state.annotating.kept(),
             window_size: None,
         }
     }

@@ -176,13 +176,13 @@ impl Stages {
         source: &Source,
         request: &Request,
         observe: &dyn Observe,
-        arrived: &dyn Fn(Arc<ShownPoints>),
+        arrived: &dyn Fn(&Arc<Fruit>, Arc<ShownPoints>),
     ) -> Result<Walked, WalkError> {
         let fruit_key = FruitKey::new(source, request);
         let is_new = kept(self.fruit.as_ref(), &fruit_key).is_none();
         let fruit = self.fruit(&fruit_key, observe)?;
         if is_new && fruit.cloud().len() >= LARGE {
-            arrived(self.bare(&fruit));
+            arrived(&fruit, self.bare(&fruit));
         }
         if observe.is_cancelled() {
             return Err(WalkError::Cancelled);

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use super::annotating::{AnnotateCommand, Annotating, KeptAnnotating};
 use super::folder::{FolderCommand, FolderState};
 use super::look::{Look, Style};
 use super::peduncle::{PeduncleCommand, PeduncleState};
@@ -163,6 +164,8 @@ pub struct State {
     pub interface_scale: f32,
     /// The open clouds as a set.
     pub folder: FolderState,
+    /// Axes set by hand.
+    pub annotating: Annotating,
 }
 
 impl State {
@@ -199,6 +202,7 @@ impl State {
             is_software: false,
             interface_scale: 1.0,
             folder: FolderState::new(super::folder::KeptFolder::default()),
+            annotating: Annotating::new(KeptAnnotating::default()),
         }
     }
 
@@ -251,7 +255,11 @@ impl State {
 
     /// The axis that errors are measured against: the chosen one, or else the first there is.
     pub fn reference(&self) -> Option<&AxisEstimate> {
-        reference_of(&self.references, self.truth).or(self.references.first())
+        let chosen = self.annotating.compared.as_ref();
+        let chosen = chosen.and_then(|source| self.references.iter().find(|axis| axis.source == *source));
+        chosen
+            .or_else(|| reference_of(&self.references, self.truth))
+            .or(self.references.first())
     }
 
     /// The detail of the plane that is drawn.
@@ -352,6 +360,9 @@ pub enum Command {
 
     /// Something of the set of open clouds.
     Folder(FolderCommand),
+
+    /// Something about axes set by hand.
+    Annotate(AnnotateCommand),
 
     /// Make the interface larger or smaller.
     Scale(f32),

@@ -1,6 +1,6 @@
 //! Work beside the interface: on a thread of its own, where the newest request wins.
 //!
-//! The only place in the program that starts a thread and waits for one; a browser build replaces it.
+//! Here and in `queue.rs` alone the program starts threads and waits for them; a browser build replaces both.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
@@ -270,7 +270,7 @@ fn work<T>(shared: &Shared<T>, repaint: &Repaint) {
     }
 }
 
-fn message_of(fault: &(dyn std::any::Any + Send)) -> String {
+pub(super) fn message_of(fault: &(dyn std::any::Any + Send)) -> String {
     let text = fault.downcast_ref::<&str>().map(|s| (*s).to_owned());
     text.or_else(|| fault.downcast_ref::<String>().cloned())
         .unwrap_or_else(|| "without a message".into())

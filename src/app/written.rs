@@ -22,7 +22,8 @@ pub struct Written<'a> {
 impl<'a> Written<'a> {
     /// What is to be said of a look.
     pub fn of(state: &State, look: &'a Look) -> Self {
-        let has = |overlay| look.analysis.is_some() && state.style.overlays.has(overlay);
+        let overlays = state.shown_style().overlays;
+        let has = |overlay| look.analysis.is_some() && overlays.has(overlay);
         let (axis, reference) = (look.axis.as_ref(), look.reference.as_ref());
         let both = axis
             .zip(reference)
@@ -46,7 +47,7 @@ impl<'a> Written<'a> {
             _ => Vec::new(),
         };
         Self {
-            legend: state.style.overlays.has(Overlay::Legend).then_some(&*look.legend),
+            legend: overlays.has(Overlay::Legend).then_some(&*look.legend),
             caption,
             label,
             unit: state.walked.as_ref().map(|w| w.fruit.unit.symbol()),

@@ -3,7 +3,9 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
+use super::annotating;
 use super::layout::Pane;
+use crate::app::annotating::overlay_reveals;
 use crate::app::{Command, PeduncleCommand, PlaneChoice, Sample, State, Tool};
 use crate::method::Preset;
 use crate::render::Projection;
@@ -56,6 +58,8 @@ pub enum Group {
     File,
     /// Undo and the parameters.
     Edit,
+    /// The axis that is set by hand.
+    TrueAxis,
     /// Which plane is looked at.
     Plane,
     /// Where the view is seen from.
@@ -70,9 +74,10 @@ pub enum Group {
 
 impl Group {
     /// All of them, in their order.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::File,
         Self::Edit,
+        Self::TrueAxis,
         Self::Plane,
         Self::View,
         Self::Color,
@@ -85,6 +90,7 @@ impl Group {
         match self {
             Self::File => "File",
             Self::Edit => "Edit",
+            Self::TrueAxis => "True axis",
             Self::Plane => "Plane",
             Self::View => "View",
             Self::Color => "Color by",
@@ -187,12 +193,30 @@ pub fn actions(state: &State) -> Vec<Action> {
     let mut all = file_actions(state);
     all.extend(edit_actions(state));
     all.extend(super::peduncle::keys::actions(state));
+    all.extend(annotating::actions(state));
     all.extend(plane_actions(state));
     all.extend(view_actions(state));
     all.extend(style_actions(state));
     all.extend(window_actions(state));
     all.extend(super::folder::keys::actions(state));
+    if state.annotating.is_editing {
+        give_way(&mut all);
+    }
+    if state.annotating.is_blind {
+        for action in &mut all {
+            action.is_enabled &= !matches!(&action.act, Act::App(command) if command.reveals());
+        }
+    }
     all
+}
+
+/// In edit mode a key that turns or changes the axis means nothing else.
+fn give_way(all: &mut [Action]) {
+    let of_axis = |action: &&Action| action.group == Group::TrueAxis;
+    let taken: Vec<KeyboardShortcut> = all.iter().filter(of_axis).flat_map(|a| a.keys.clone()).collect();
+    for action in all.iter_mut().filter(|a| a.group != Group::TrueAxis) {
+        action.keys.retain(|key| !taken.contains(key));
+    }
 }
 
 fn file_actions(state: &State) -> Vec<Action> {
@@ -261,17 +285,22 @@ fn edit_actions(state: &State) -> Vec<Action> {
     } else {
         Action::app(Edit, "Clear the picked point", Command::Pick(None)).when(state.picked.is_some())
     };
-    vec![
-        Action::app(Edit, "Undo", Command::Undo)
-            .key(CTRL, Key::Z)
-            .when(state.can_undo)
-            .repeating(),
-        Action::app(Edit, "Redo", Command::Redo)
-            .key(CTRL | SHIFT, Key::Z)
-            .key(CTRL, Key::Y)
-            .when(state.can_redo)
-            .repeating(),
-        escape.key(NONE, Key::Escape),
+    let history = annotating::history(state).unwrap_or_else(|| {
+        [
+            Action::app(Edit, "Undo", Command::Undo)
+                .key(CTRL, Key::Z)
+                .when(state.can_undo)
+                .repeating(),
+            Action::app(Edit, "Redo", Command::Redo)
+                .key(CTRL | SHIFT, Key::Z)
+                .key(CTRL, Key::Y)
+                .when(state.can_redo)
+                .repeating(),
+            escape.key(NONE, Key::Escape),
+        ]
+    });
+    let mut actions = history.to_vec();
+    actions.extend([
         Action::app(
             Edit,
             "Read the paper as intended",
@@ -301,7 +330,8 @@ fn edit_actions(state: &State) -> Vec<Action> {
         Action::app(Edit, "Analyze after all", Command::Resume)
             .key(NONE, Key::F5)
             .when(state.was_cancelled),
-    ]
+    ]);
+    actions
 }
 
 fn plane_actions(state: &State) -> Vec<Action> {
@@ -370,7 +400,7 @@ fn view_actions(state: &State) -> Vec<Action> {
 }
 
 fn style_actions(state: &State) -> Vec<Action> {
-    let style = &state.style;
+    let (style, is_blind) = (&state.style, state.annotating.is_blind);
     let mut actions = Vec::new();
     let number = [
         Key::Num1,
@@ -392,7 +422,8 @@ fn style_actions(state: &State) -> Vec<Action> {
                 Command::Style(Box::new(new)),
             )
             .key(NONE, key)
-            .on(style.coloring == coloring),
+            .on(state.shown_style().coloring == coloring)
+            .when(!(is_blind && coloring.needs_plane())),
         );
     }
     for overlay in Overlay::ALL {
@@ -400,7 +431,10 @@ fn style_actions(state: &State) -> Vec<Action> {
         let is_on = style.overlays.has(overlay);
         new.overlays.set(overlay, !is_on);
         let (title, key) = overlay_title(overlay);
-        let action = Action::app(Group::Overlay, title, Command::Style(Box::new(new))).on(is_on);
+        let is_hidden = is_blind && overlay_reveals(overlay);
+        let action = Action::app(Group::Overlay, title, Command::Style(Box::new(new)))
+            .on(is_on && !is_hidden)
+            .when(!is_hidden);
         actions.push(match key {
             Some(key) => action.key(NONE, key),
             None => action,
@@ -482,7 +516,7 @@ fn window_actions(state: &State) -> Vec<Action> {
             .key(CTRL, Key::P)
             .key(CTRL, Key::K),
         Action::app(Window, "Light colors", Command::Style(Box::new(other)))
-            .key(NONE, Key::T)
+            .key(SHIFT, Key::T)
             .on(!state.is_dark()),
         Action::app(Window, "Larger interface", Command::Scale(scale + 0.1))
             .key(CTRL, Key::Plus)

@@ -5,7 +5,7 @@ use egui::{Modal, RichText};
 use super::actions::{Action, Group};
 
 /// What the mouse does in the view.
-const MOUSE: [(&str, &str); 7] = [
+const MOUSE: [(&str, &str); 10] = [
     ("Drag", "turn"),
     ("Right or middle drag, Shift + drag", "move"),
     ("Wheel, pinch", "zoom to the cursor"),
@@ -13,6 +13,9 @@ const MOUSE: [(&str, &str); 7] = [
     ("Double click", "pick a point and turn about it"),
     ("Hover over the map or hemisphere", "preview a plane"),
     ("Drag over the histogram", "brush contributions"),
+    ("Setting an axis: click", "set the next end"),
+    ("Setting an axis: drag", "move an end or the axis"),
+    ("Setting an axis: right drag", "turn the view"),
 ];
 
 /// Shows the sheet; says whether it is to stay.
@@ -33,7 +36,7 @@ pub fn show(ctx: &egui::Context, actions: &[Action]) -> bool {
                 ui.columns(columns, |columns| {
                     let count = columns.len();
                     let parts: [&[Group]; 3] = [
-                        &[Group::File, Group::Edit],
+                        &[Group::File, Group::Edit, Group::TrueAxis],
                         &[Group::Plane, Group::View],
                         &[Group::Color, Group::Overlay, Group::Window],
                     ];

@@ -30,11 +30,13 @@ pub enum Pane {
     Gallery,
     /// The mean error over u and τ.
     Sweep,
+    /// Axes set by hand.
+    TrueAxis,
 }
 
 impl Pane {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::View,
         Self::Files,
         Self::Parameters,
@@ -47,6 +49,7 @@ impl Pane {
         Self::Charts,
         Self::Gallery,
         Self::Sweep,
+        Self::TrueAxis,
     ];
 
     /// Whether a key brings it to the front.
@@ -72,6 +75,7 @@ impl Pane {
             Self::Charts => "Charts",
             Self::Gallery => "Gallery",
             Self::Sweep => "Sweep",
+            Self::TrueAxis => "True axes",
         }
     }
 }
@@ -99,8 +103,9 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
         charts,
         gallery,
         sweep,
+        true_axis,
     ] = Pane::ALL.map(|pane| tiles.insert_pane(pane));
-    let left = tiles.insert_tab_tile(vec![parameters, files]);
+    let left = tiles.insert_tab_tile(vec![parameters, files, true_axis]);
     let above = tiles.insert_tab_tile(vec![map, hemisphere]);
     let middle = tiles.insert_tab_tile(vec![ranking]);
     let below = tiles.insert_tab_tile(vec![point, contributions]);
@@ -149,8 +154,9 @@ fn narrow_layout() -> Tree<Pane> {
         charts,
         gallery,
         sweep,
+        true_axis,
     ] = Pane::ALL.map(|pane| tiles.insert_pane(pane));
-    let above = tiles.insert_tab_tile(vec![parameters, files, point, contributions]);
+    let above = tiles.insert_tab_tile(vec![parameters, files, true_axis, point, contributions]);
     let below = tiles.insert_tab_tile(vec![map, hemisphere, ranking]);
     for (tabs, first) in [(above, parameters), (below, map)] {
         if let Some(egui_tiles::Tile::Container(Container::Tabs(tabs))) = tiles.get_mut(tabs) {

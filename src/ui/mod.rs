@@ -3,6 +3,7 @@
 
 mod about;
 pub mod actions;
+pub mod annotating;
 mod color_scale;
 pub mod contributions;
 mod controls;

@@ -17,6 +17,15 @@ pub fn nothing_to_show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) 
     });
 }
 
+/// Stands in for what blind mode hides.
+pub fn hidden(ui: &mut Ui) {
+    let height = ui.available_height();
+    ui.allocate_ui_with_layout(ui.available_size(), Layout::top_down(Align::Center), |ui| {
+        ui.add_space((0.5 * height - 24.0).clamp(4.0, 160.0));
+        ui.label("Hidden in blind mode (Shift+B).");
+    });
+}
+
 fn reason(state: &State) -> (String, bool) {
     let name = state.source().map(Source::name);
     let problem = state

@@ -8,9 +8,10 @@ use super::files::{self, FilesAnswer};
 use super::folder::{self, FolderAnswer};
 use super::layout::Pane;
 use super::{
-    contributions, hemisphere, parameters, peduncle, point, ranking, score_map, scrub, view_bar, view3d,
+    annotating, contributions, hemisphere, notice, parameters, peduncle, point, ranking, score_map, scrub,
+    view_bar, view3d,
 };
-use crate::app::{Command, PeduncleCommand, State};
+use crate::app::{AnnotateCommand, Command, PeduncleCommand, State};
 use crate::render::Viewport;
 
 /// What the panels are given, and what they say.
@@ -76,15 +77,28 @@ impl Panes<'_> {
             view_bar::show(ui, self.state, self.actions, self.acts);
             peduncle::bar(ui, self.state, self.actions, self.acts);
         });
-        Panel::bottom("scrub").show_separator_line(false).show(ui, |ui| {
-            scrub::show(ui, self.state, self.commands);
-        });
+        if !self.state.annotating.is_blind {
+            Panel::bottom("scrub").show_separator_line(false).show(ui, |ui| {
+                scrub::show(ui, self.state, self.commands);
+            });
+        }
+        annotating::hint_bar(ui, self.state);
+        let is_in_locked = annotating::locked_views(ui, self.state, self.is_gpu, self.commands);
         let answer = view3d::show(ui, self.state, self.is_gpu, self.commands);
         *self.viewport = Some(answer.viewport);
+        if self.state.annotating.landing.is_some() && !is_in_locked && !answer.is_hovered {
+            let gone = AnnotateCommand::Hover(None);
+            self.commands.push(Command::Annotate(gone));
+        }
     }
 
     fn panel(&mut self, ui: &mut egui::Ui, pane: Pane) {
         let (state, commands) = (self.state, &mut *self.commands);
+        let is_free = matches!(pane, Pane::View | Pane::Files | Pane::Parameters | Pane::TrueAxis);
+        if state.annotating.is_blind && !is_free {
+            notice::hidden(ui);
+            return;
+        }
         match pane {
             Pane::View => {}
             Pane::Files => {
@@ -114,6 +128,11 @@ impl Panes<'_> {
                         FolderAnswer::CopyCommandLine => WindowAct::CopyEvaluation,
                     }));
                 }
+            }
+            Pane::TrueAxis => {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    annotating::show(ui, state, commands);
+                });
             }
         }
     }

@@ -76,10 +76,12 @@ fn result(ui: &mut egui::Ui, state: &State) {
     };
     let analysis = &walked.analysis;
     let points = analysis.surface.len();
-    let mut parts = vec![
-        format!("{points} points used, in {}", walked.fruit.unit.symbol()),
-        format!("preset {}", analysis.params.preset_name()),
-    ];
+    let used = format!("{points} points used, in {}", walked.fruit.unit.symbol());
+    if state.annotating.is_blind {
+        ui.label(format!("{used} · blind: results are hidden"));
+        return;
+    }
+    let mut parts = vec![used, format!("preset {}", analysis.params.preset_name())];
     match (&analysis.axis, state.reference()) {
         (Some(axis), Some(reference)) => parts.push(format!(
             "best axis {:.1}° off the {} axis",
@@ -101,12 +103,15 @@ pub fn reference_name(source: &str) -> &str {
         "simulation" => "simulated",
         "peduncle" => "peduncle's",
         "peduncle-direction" => "peduncle's own",
-        other => other,
+        "adjudicated" => "adjudicated",
+        other if other.starts_with("annotators:") => "annotators' mean",
+        other => other.strip_prefix("annotator:").unwrap_or(other),
     }
 }
 
 fn warnings(ui: &mut egui::Ui, state: &State) {
-    let count = state.warnings.len();
+    let warnings = state.shown_warnings();
+    let count = warnings.len();
     if count == 0 {
         return;
     }
@@ -118,7 +123,7 @@ fn warnings(ui: &mut egui::Ui, state: &State) {
     let color = ui.visuals().warn_fg_color;
     ui.menu_button(RichText::new(text).color(color), |ui| {
         ui.set_max_width(420.0);
-        for warning in &state.warnings {
+        for warning in warnings {
             ui.add(egui::Label::new(warning.as_str()).wrap());
         }
     });

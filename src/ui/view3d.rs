@@ -5,8 +5,10 @@ use egui::{
 };
 use glam::DVec2;
 
+use super::annotating::Stage;
 use super::paint::ViewCallback;
 use super::peduncle;
+use crate::app::annotating::EditView;
 use crate::app::why::{why, why_lines};
 use crate::app::{Command, State, Tool, Written, dragged};
 use crate::render::{Line, Viewport};
@@ -19,6 +21,8 @@ pub(super) const ORBIT_RAD_PER_PX: f64 = 0.008;
 pub(super) struct ViewAnswer {
     /// Its size in logical pixels.
     pub(super) viewport: Viewport,
+    /// Whether the cursor is in it while clicks set an axis.
+    pub(super) is_hovered: bool,
 }
 
 /// Draws the view into all of the room that is left.
@@ -32,7 +36,10 @@ pub(super) fn show(
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, description(state)));
     let viewport = Viewport::new(rect.width().into(), rect.height().into());
-    let answer = ViewAnswer { viewport };
+    let mut answer = ViewAnswer {
+        viewport,
+        is_hovered: false,
+    };
     let Some(look) = state.look.as_ref() else {
         empty(ui, rect, state);
         return answer;
@@ -42,6 +49,13 @@ pub(super) fn show(
     } else {
         navigate(ui, &response, rect, state, viewport, commands);
     }
+    let stage = Stage {
+        view: EditView::Main,
+        rect,
+        camera: &state.camera,
+        viewport,
+    };
+    answer.is_hovered = stage.interact(ui, &response, state, commands);
 
     let pixels_per_point = ui.ctx().pixels_per_point();
     if is_gpu {
@@ -51,7 +65,12 @@ pub(super) fn show(
             rect,
             ViewCallback {
                 view: response.id,
-                scene: state.drawn_scene().unwrap_or_else(|| look.scene.clone()),
+                scene: state
+                    .annotating
+                    .ghost_scene
+                    .clone()
+                    .or_else(|| state.drawn_scene())
+                    .unwrap_or_else(|| look.scene.clone()),
                 lines: cursor_lines(state, pixels_per_point),
                 camera: state.camera,
                 size_px,
@@ -73,6 +92,7 @@ pub(super) fn show(
     for annotation in annotate(&page, &state.camera, &measure) {
         paint(&painter, rect, &annotation);
     }
+    stage.paint(ui, &response, state);
     notices(ui, rect, state);
     peduncle::paint(ui, &response, rect, state);
     answer
@@ -105,7 +125,10 @@ fn navigate(
     let shift = ui.input(|i| i.modifiers.shift);
     let mut camera = state.camera;
     let is_primary = response.dragged_by(PointerButton::Primary);
-    let pans = response.dragged_by(PointerButton::Secondary)
+    let is_primary = is_primary && !state.annotating.is_editing;
+    // Where the left button sets the axis, the right one turns.
+    let turns = state.annotating.is_editing && response.dragged_by(PointerButton::Secondary) && !shift;
+    let pans = (response.dragged_by(PointerButton::Secondary) && !turns)
         || response.dragged_by(PointerButton::Middle)
         || (is_primary && shift);
     let center = state.analysis().map(|a| a.center);
@@ -115,7 +138,7 @@ fn navigate(
         if let Some(center) = center.filter(|_| by_px != DVec2::ZERO) {
             commands.push(Command::MoveCenter(dragged(center, by_px, &camera, viewport)));
         }
-    } else if is_primary {
+    } else if is_primary || turns {
         camera.orbit(ORBIT_RAD_PER_PX * by_px.x, ORBIT_RAD_PER_PX * by_px.y);
     }
     if response.drag_stopped() && state.tool == Tool::MoveCenter {
@@ -134,6 +157,9 @@ fn navigate(
     }
     if state.tool == Tool::MoveCenter && response.hovered() {
         ui.ctx().set_cursor_icon(CursorIcon::Move);
+    }
+    if state.annotating.is_editing {
+        return;
     }
     if let Some(at) = response.interact_pointer_pos() {
         if response.double_clicked() {

@@ -3,7 +3,7 @@
 use egui::{ComboBox, RichText};
 
 use super::actions::{Act, Action, Group, coloring_title};
-use crate::app::{Command, State};
+use crate::app::{AnnotateCommand, Command, State};
 use crate::evaluate::TruthChoice;
 use crate::method::AxisSource;
 use crate::view::{Coloring, ViewPreset};
@@ -65,7 +65,7 @@ pub fn show(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec
 }
 
 fn colorings(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
-    let current = state.style.coloring;
+    let current = state.shown_style().coloring;
     let response = ComboBox::from_id_salt("coloring")
         .selected_text(coloring_title(current))
         .width(146.0)
@@ -74,7 +74,7 @@ fn colorings(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Ve
             for action in actions.iter().filter(|a| a.group == Group::Color) {
                 let is_on = action.is_on == Some(true);
                 let keys = action.keys_text(ui.ctx());
-                let is_known = titles.contains(&action.title.as_str());
+                let is_known = action.is_enabled && titles.contains(&action.title.as_str());
                 let button = egui::Button::selectable(is_on, action.title.as_str()).shortcut_text(keys);
                 if is_known && ui.add(button).clicked() {
                     acts.push(action.act.clone());
@@ -93,7 +93,8 @@ fn overlays(ui: &mut egui::Ui, actions: &[Action], acts: &mut Vec<Act>) {
         for action in actions.iter().filter(|a| a.group == Group::Overlay) {
             let Some(mut is_on) = action.is_on else { continue };
             ui.horizontal(|ui| {
-                if ui.checkbox(&mut is_on, action.title.as_str()).clicked() {
+                let checkbox = egui::Checkbox::new(&mut is_on, action.title.as_str());
+                if ui.add_enabled(action.is_enabled, checkbox).clicked() {
                     acts.push(action.act.clone());
                 }
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -122,20 +123,18 @@ fn tip(ctx: &egui::Context, action: &Action) -> String {
 
 /// Which reference the error is measured against, where there are several.
 fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
-    if state.references.len() < 2 {
+    if state.references.len() < 2 || state.annotating.is_blind {
         return;
     }
-    let choice_of = |source: &AxisSource| match source {
-        AxisSource::Simulation => TruthChoice::Truth,
-        AxisSource::PeduncleDirection => TruthChoice::PeduncleDirection,
-        AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated => TruthChoice::Manual,
-        _ => TruthChoice::Peduncle,
-    };
-    let name = |source: &AxisSource| match source {
-        AxisSource::Simulation => "Simulated axis",
-        AxisSource::PeduncleDirection => "Peduncle's direction",
-        AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated => "Axis by hand",
-        _ => "Peduncle's axis",
+    let name = |source: &AxisSource| -> String {
+        match source {
+            AxisSource::Simulation => "Simulated axis".into(),
+            AxisSource::PeduncleDirection => "Peduncle's direction".into(),
+            AxisSource::Annotator(name) => format!("{name}'s axis"),
+            AxisSource::Annotators(count) => format!("Mean of {count} annotators"),
+            AxisSource::Adjudicated => "Adjudicated axis".into(),
+            _ => "Peduncle's axis".into(),
+        }
     };
     let Some(current) = state.reference() else { return };
     let response = ComboBox::from_id_salt("reference")
@@ -145,7 +144,18 @@ fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
             for reference in &state.references {
                 let is_on = reference.source == current.source;
                 if ui.selectable_label(is_on, name(&reference.source)).clicked() {
-                    acts.push(Act::App(Command::Compare(choice_of(&reference.source))));
+                    acts.push(Act::App(match &reference.source {
+                        // One annotator's is none of the usual choices.
+                        source @ AxisSource::Annotator(_) => {
+                            Command::Annotate(AnnotateCommand::CompareWith(source.clone()))
+                        }
+                        AxisSource::Simulation => Command::Compare(TruthChoice::Truth),
+                        AxisSource::PeduncleDirection => Command::Compare(TruthChoice::PeduncleDirection),
+                        AxisSource::Annotators(_) | AxisSource::Adjudicated => {
+                            Command::Annotate(AnnotateCommand::CompareWith(reference.source.clone()))
+                        }
+                        _ => Command::Compare(TruthChoice::Peduncle),
+                    }));
                 }
             }
         })

@@ -8,7 +8,8 @@ use std::time::{Duration, Instant};
 use egui::{CentralPanel, Frame, Panel, ViewportCommand};
 use egui_tiles::Tree;
 
-use super::actions::{Act, Action, WindowAct, actions};
+use super::actions::{Act, Action, Group, WindowAct, actions};
+use super::annotating;
 use super::dialogs::{self, Asked};
 use super::layout::{Pane, first_layout, is_wide, layout_from};
 use super::paint::Views;
@@ -60,6 +61,9 @@ pub struct Window {
     /// Whether the time that each frame takes goes to standard error.
     tells_frames: bool,
     last_ui: Option<Instant>,
+    /// Whether the window is to be closed as soon as every axis is saved.
+    is_closing: bool,
+    may_close: bool,
 }
 
 impl Window {
@@ -125,6 +129,8 @@ impl Window {
             title: String::new(),
             tells_frames: std::env::var_os("AXISCOPE_FRAMES").is_some(),
             last_ui: None,
+            is_closing: false,
+            may_close: false,
         })
     }
 
@@ -201,6 +207,9 @@ impl Window {
                 .set_view(viewport, ctx.pixels_per_point(), self.is_software);
         }
         peduncle::question(&ctx, self.app.state(), &mut commands);
+        annotating::ask_name(&ctx, self.app.state(), &mut commands);
+        self.close(&ctx, &mut commands);
+        let was_editing = self.app.state().annotating.is_editing;
         for command in commands {
             self.carry_out(&ctx, command);
         }
@@ -209,6 +218,9 @@ impl Window {
                 Act::App(command) => self.carry_out(&ctx, command),
                 Act::Window(act) => self.act(&ctx, act),
             }
+        }
+        if self.app.state().annotating.is_editing && !was_editing {
+            self.act(&ctx, WindowAct::Show(Pane::TrueAxis));
         }
     }
 
@@ -221,6 +233,27 @@ impl Window {
             self.tree = first_layout(width);
         }
         self.laid_out_for = width;
+    }
+
+    /// Where axes are still being saved, or could not be, the window does not close yet.
+    fn close(&mut self, ctx: &egui::Context, commands: &mut Vec<Command>) {
+        let is_asked = ctx.input(|i| i.viewport().close_requested());
+        if self.may_close || (!is_asked && !self.is_closing) {
+            return;
+        }
+        match annotating::Farewell::of(ctx, self.app.state(), commands) {
+            annotating::Farewell::Close if is_asked => {}
+            annotating::Farewell::Close => {
+                self.may_close = true;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+            annotating::Farewell::Stay => self.is_closing = false,
+            annotating::Farewell::Wait => {
+                self.is_closing = true;
+                ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+                ctx.request_repaint_after(Duration::from_millis(50));
+            }
+        }
     }
 
     /// Files that were dropped, and answers of dialogs.
@@ -252,7 +285,8 @@ impl Window {
     }
 
     fn keys(&self, ctx: &egui::Context, all: &[Action], acts: &mut Vec<Act>) {
-        let is_covered = self.is_help_open || self.is_about_open || self.saving.is_some();
+        let is_asking = self.app.state().annotating.asks_name || self.is_closing;
+        let is_covered = self.is_help_open || self.is_about_open || self.saving.is_some() || is_asking;
         if is_covered || self.palette.is_some() || ctx.text_edit_focused() {
             return;
         }
@@ -276,7 +310,13 @@ impl Window {
                         | egui::Key::ArrowUp
                         | egui::Key::ArrowDown
                 );
-            if is_focused && is_widgets {
+            // But a button that was clicked does not keep the axis from being turned.
+            let turns_axis = action.group == Group::TrueAxis;
+            if is_focused && is_widgets && !turns_axis {
+                continue;
+            }
+            // Closes a list or a menu first.
+            if key.logical_key == egui::Key::Escape && egui::Popup::is_any_open(ctx) {
                 continue;
             }
             let is_first = ctx.input(|i| {
@@ -451,6 +491,7 @@ impl eframe::App for Window {
     }
 
     fn on_exit(&mut self) {
+        self.app.finish();
         self.keep(true, None);
     }
 

@@ -29,8 +29,8 @@ impl App {
                 }
             }
             PeduncleCommand::DropStroke => picking.strokes.retain(|stroke| stroke.is_ended),
-            PeduncleCommand::Grow => self.edit(true),
-            PeduncleCommand::Shrink => self.edit(false),
+            PeduncleCommand::Grow => self.grow_picked(true),
+            PeduncleCommand::Shrink => self.grow_picked(false),
             PeduncleCommand::Clear => self.pick_peduncle(Arc::default()),
             PeduncleCommand::Invert => self.invert(),
             PeduncleCommand::BrushRadius(radius) if radius.is_finite() => {
@@ -117,7 +117,7 @@ impl App {
         }
     }
 
-    fn edit(&mut self, grows: bool) {
+    fn grow_picked(&mut self, grows: bool) {
         let reach_spacings = self.state.peduncle.reach_spacings;
         self.peduncle.waiting_edits.push_back(Edit {
             grows,

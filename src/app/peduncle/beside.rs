@@ -77,7 +77,7 @@ fn errors(
     watch: &crate::app::worker::JobWatch,
 ) -> Errors {
     let walked = stages
-        .walk(source, request, watch, &|_| {})
+        .walk(source, request, watch, &|_, _| {})
         .map_err(|error| match error {
             WalkError::Fruit(error) => sentence(&error.reason()),
             WalkError::Analysis { error, .. } => sentence(&error.to_string()),

@@ -41,7 +41,7 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
             Group::File,
             WindowAct::SaveResults,
         )
-        .key(Modifiers::COMMAND | Modifiers::SHIFT, Key::S)
+        .key(Modifiers::COMMAND | Modifiers::SHIFT, Key::E)
         .when(has_files && folder.missing == 0),
         Action::window(
             "Copy the command line that evaluates all clouds",

@@ -18,7 +18,7 @@ pub(super) fn unit_of(state: &State) -> Option<Unit> {
 }
 
 /// Decimals of a coordinate: tenths of a millimeter.
-pub(super) fn decimals(unit: Option<Unit>) -> usize {
+pub(in crate::ui) fn decimals(unit: Option<Unit>) -> usize {
     match unit {
         Some(Unit::Centimeter) => 2,
         Some(Unit::Millimeter) => 1,
@@ -142,14 +142,14 @@ fn normals(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
 }
 
 /// Three coordinates in the file's unit and frame.
-pub(super) struct Triple<'a> {
-    pub(super) name: &'a str,
-    pub(super) tip: &'a str,
-    pub(super) unit: Option<Unit>,
+pub(in crate::ui) struct Triple<'a> {
+    pub(in crate::ui) name: &'a str,
+    pub(in crate::ui) tip: &'a str,
+    pub(in crate::ui) unit: Option<Unit>,
 }
 
 impl Triple<'_> {
-    pub(super) fn show(&self, ui: &mut Ui, place: &mut DVec3) -> Response {
+    pub(in crate::ui) fn show(&self, ui: &mut Ui, place: &mut DVec3) -> Response {
         let unit = self.unit.map_or("file's unit", Unit::symbol);
         ui.add(Label::new(format!("{} X, Y, Z ({unit})", self.name)).truncate())
             .on_hover_text(self.tip);

@@ -8,6 +8,8 @@ mod scoring;
 
 use egui::Ui;
 
+pub(super) use cloud::{Triple, decimals};
+
 use super::controls::{Edit, caution};
 use crate::app::{Command, State};
 use crate::method::{Params, Preset};

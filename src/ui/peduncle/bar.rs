@@ -43,7 +43,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: 
             }
         }
         let mut is_through = picking.is_through;
-        let tip = "Take points that others hide as well, through the whole cloud (Shift + T). Otherwise only what \
+        let tip = "Take points that others hide as well, through the whole cloud (Shift + H). Otherwise only what \
                    is seen is taken.";
         if ui.checkbox(&mut is_through, "Through").on_hover_text(tip).changed() {
             say(acts, PeduncleCommand::Through(is_through));

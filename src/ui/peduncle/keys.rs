@@ -42,7 +42,7 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
             "Pick hidden points as well",
             PeduncleCommand::Through(!picking.is_through),
         )
-        .key(SHIFT, Key::T)
+        .key(SHIFT, Key::H)
         .on(picking.is_through),
         edit("Save the peduncle beside the cloud", PeduncleCommand::Save).key(CTRL | SHIFT, Key::S),
     ];

@@ -1,0 +1,202 @@
+//! Edit mode in the whole window, driven by the mouse and keys as a person does, and how it looks.
+
+#[path = "../driving/mod.rs"]
+mod driving;
+
+mod edits;
+mod looks;
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use axiscope::annotate::{Annotation, Author, CloudId, Ends, Judgment, Store};
+use axiscope::app::annotating::{EditView, Handle};
+use axiscope::app::{Annotating, Command, Session, State};
+use axiscope::io::{DiskFiles, Fruit, PeduncleChoice};
+use axiscope::ui::{Start, Window};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
+use egui_kittest::kittest::Queryable;
+use egui_kittest::{Harness, SnapshotOptions};
+use glam::DVec2;
+
+type Harnessed = Harness<'static, Window>;
+
+/// A folder with so many copies of the bundled pepper.
+fn folder(clouds: usize) -> (tempfile::TempDir, Vec<PathBuf>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let names = (0..clouds).map(|i| format!("pepper_{}.ply", i + 1));
+    let paths: Vec<PathBuf> = names.map(|name| folder.path().join(name)).collect();
+    for path in &paths {
+        std::fs::copy(driving::asset("pepper.ply"), path).expect("copied");
+    }
+    (folder, paths)
+}
+
+fn ada() -> Author {
+    Author::annotator("Ada").expect("a name")
+}
+
+/// A window on these clouds, whose annotator has said her name before.
+fn window(paths: &[PathBuf], size: [f32; 2]) -> Harnessed {
+    let mut session = Session::first();
+    session.annotating.name = "Ada".into();
+    window_of(session, paths, size)
+}
+
+fn window_of(session: Session, paths: &[PathBuf], size: [f32; 2]) -> Harnessed {
+    let start = Start {
+        session,
+        session_path: None,
+        paths: paths.to_vec(),
+        problem: None,
+    };
+    let mut harness = Harness::builder()
+        .with_size(Vec2::from(size))
+        .with_max_steps(64)
+        .with_accessibility_check(true)
+        .wgpu()
+        .build_eframe(move |context| Window::new(context, start).expect("threads can be started"));
+    settle(&mut harness);
+    harness
+}
+
+const SIZE: [f32; 2] = [1360.0, 860.0];
+
+/// Frames until nothing is under way.
+fn settle(harness: &mut Harnessed) {
+    let began = Instant::now();
+    let mut calm = 0;
+    while calm < 4 {
+        harness.step();
+        calm = if harness.state().app().is_busy() {
+            0
+        } else {
+            calm + 1
+        };
+        assert!(began.elapsed() < Duration::from_mins(1), "it never settles");
+    }
+}
+
+fn press(harness: &mut Harnessed, modifiers: Modifiers, key: Key) {
+    harness.key_press_modifiers(modifiers, key);
+    settle(harness);
+}
+
+fn apply(harness: &mut Harnessed, command: Command) {
+    harness.state_mut().app_mut().apply(command);
+    settle(harness);
+}
+
+fn state(harness: &Harnessed) -> &State {
+    harness.state().app().state()
+}
+
+fn annotating(harness: &Harnessed) -> &Annotating {
+    &state(harness).annotating
+}
+
+/// The large view on the screen.
+fn view(harness: &Harnessed) -> egui::Rect {
+    harness.get_by_label_contains("3-D view of").rect()
+}
+
+fn locked(harness: &Harnessed, view: EditView) -> egui::Rect {
+    harness
+        .get_by_label(&format!("Locked view: {}", view.title()))
+        .rect()
+}
+
+fn move_to(harness: &mut Harnessed, at: Pos2) {
+    harness.event(Event::PointerMoved(at));
+    harness.step();
+}
+
+fn button(harness: &mut Harnessed, at: Pos2, button: PointerButton, pressed: bool) {
+    harness.event(Event::PointerButton {
+        pos: at,
+        button,
+        pressed,
+        modifiers: Modifiers::NONE,
+    });
+    harness.step();
+}
+
+fn click(harness: &mut Harnessed, at: Pos2) {
+    move_to(harness, at);
+    button(harness, at, PointerButton::Primary, true);
+    button(harness, at, PointerButton::Primary, false);
+    settle(harness);
+}
+
+fn drag(harness: &mut Harnessed, which: PointerButton, from: Pos2, by: Vec2) {
+    move_to(harness, from);
+    button(harness, from, which, true);
+    for step in 1..=8 {
+        move_to(harness, from + by * (step as f32 / 8.0));
+    }
+    button(harness, from + by, which, false);
+    settle(harness);
+}
+
+/// Where a handle shows in the large view.
+fn handle_on_screen(harness: &Harnessed, handle: Handle) -> Pos2 {
+    let state = state(harness);
+    let ends = state.annotating.ends().expect("an axis");
+    let at = state
+        .camera
+        .project(handle.place(&ends), state.viewport)
+        .expect("seen");
+    view(harness).min + vec2(at.x as f32, at.y as f32)
+}
+
+/// Both ends of the bundled pepper, as an eye sees them in the first view.
+fn set_by_clicks(harness: &mut Harnessed) -> Ends {
+    let (base, blossom) = where_ends_are(harness);
+    click(harness, base);
+    click(harness, blossom);
+    annotating(harness).set_ends().expect("an axis")
+}
+
+fn where_ends_are(harness: &Harnessed) -> (Pos2, Pos2) {
+    let view = view(harness);
+    (
+        view.lerp_inside(vec2(0.47, 0.33)),
+        view.lerp_inside(vec2(0.50, 0.80)),
+    )
+}
+
+fn on_disk(cloud: &Path) -> Option<Annotation> {
+    let bytes = std::fs::read(ada().axis_path(cloud, 1)).ok()?;
+    Some(Annotation::from_json(&bytes).expect("an axis file"))
+}
+
+/// An axis of somebody else, beside the cloud.
+fn set_as(name: &str, cloud: &Path, ends: Ends) {
+    let fruit = Fruit::read(cloud, None, &PeduncleChoice::Auto).expect("a cloud");
+    let id = CloudId {
+        file: cloud.file_name().expect("a name").to_string_lossy().into(),
+        sha256: fruit.file.sha256.clone(),
+    };
+    let author = Author::annotator(name).expect("a name");
+    let files = Box::new(DiskFiles::default());
+    let (mut store, _) = Store::open(files, cloud, id, fruit.unit, author).expect("open");
+    store
+        .edit(Judgment::by_hand(ends), "2026-03-01T12:00:00Z")
+        .expect("written");
+}
+
+/// Compares with the committed picture: a few pixels may differ a little, as between drivers. The cursor
+/// stays where it is.
+fn snapshot(harness: &mut Harnessed, name: &str) {
+    settle(harness);
+    let options = SnapshotOptions::new()
+        .output_path("screenshots/annotating")
+        .threshold(2.0)
+        .max_failed_pixels(10);
+    harness.snapshot_options(name, &options);
+}
+
+fn pixel_in(rect: egui::Rect, at: Pos2) -> DVec2 {
+    let from = at - rect.min;
+    DVec2::new(from.x.into(), from.y.into())
+}
