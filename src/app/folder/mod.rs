@@ -8,6 +8,7 @@ mod run;
 mod saving;
 mod sweeping;
 mod table;
+mod tagging;
 mod tags;
 mod thumbnails;
 mod update;

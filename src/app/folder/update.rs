@@ -1,14 +1,13 @@
 //! What the set of clouds does once a frame, and when something is asked of it.
 
 use std::collections::{BTreeSet, HashMap};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use super::run::{Found, Task, name_of, run};
-use super::tags::Answer;
-use super::{EVALUATED_AT_ONCE, Filter, FolderCommand, FolderProgress, TableRow, TagEdit, Tagged, ordered};
+use super::run::{Found, Task, run};
+use super::{EVALUATED_AT_ONCE, FolderCommand, FolderProgress, TableRow, ordered};
 use crate::app::state::State;
 use crate::app::{App, Source};
 use crate::evaluate::Outcome;
@@ -334,7 +333,8 @@ impl App {
         self.reorder();
     }
 
-    fn reorder(&mut self) {
+    /// Makes the table's order anew.
+    pub(super) fn reorder(&mut self) {
         let folder = &mut self.state.folder;
         folder.order = Arc::new(ordered(&folder.rows, folder.sort, &folder.filter, folder.against));
         folder.missing = folder
@@ -343,128 +343,6 @@ impl App {
             .filter(|row| row.path.is_some() && (row.outcome.is_none() || row.is_stale))
             .count();
         folder.generation += 1;
-    }
-
-    fn tag(&mut self, place: usize, tagged: Tagged) {
-        let Some(row) = self.state.folder.rows.get(place) else {
-            return;
-        };
-        let Some(path) = row.path.clone() else {
-            self.say(false, "A sample cannot be tagged: it is no file of yours.".into());
-            return;
-        };
-        if row.tagged == tagged {
-            return;
-        }
-        let before = row.tagged.clone();
-        self.folder.undone.clear();
-        let depth = self.history.depth();
-        let continues = self.folder.is_typing;
-        match self.folder.done.last_mut() {
-            Some(last) if continues && last.path == path && last.depth == depth => {
-                last.after = tagged.clone();
-            }
-            _ => self.folder.done.push(TagEdit {
-                path: path.clone(),
-                before,
-                after: tagged.clone(),
-                depth,
-            }),
-        }
-        self.folder.is_typing = true;
-        self.set_tagged(path, tagged);
-    }
-
-    fn set_tagged(&mut self, path: PathBuf, tagged: Tagged) {
-        if let Some(&place) = self.folder.places.get(&path) {
-            let row = &mut Arc::make_mut(&mut self.state.folder.rows)[place];
-            row.tagged = tagged.clone();
-            row.write_cells(place);
-        }
-        self.folder.scribe.write(path, tagged);
-        self.gather_tags();
-        self.reorder();
-    }
-
-    fn gather_tags(&mut self) {
-        let rows = self.state.folder.rows.iter();
-        let tags: BTreeSet<&String> = rows.flat_map(|row| &row.tagged.tags).collect();
-        self.state.folder.known_tags = Arc::new(tags.into_iter().cloned().collect());
-        let is_gone = |tag: &String| !self.state.folder.known_tags.contains(tag);
-        if self.state.folder.filter.tag.as_ref().is_some_and(is_gone) {
-            self.state.folder.filter = Filter {
-                tag: None,
-                ..self.state.folder.filter.clone()
-            };
-        }
-    }
-
-    /// The next change of tags is a step of its own.
-    pub(in crate::app) fn end_typing(&mut self) {
-        self.folder.is_typing = false;
-    }
-
-    /// Whether the last thing that was done is a change of tags, which undo takes back first.
-    pub(in crate::app) fn undo_tag(&mut self) -> bool {
-        self.folder.is_typing = false;
-        let depth = self.history.depth();
-        let Some(edit) = self.folder.done.pop_if(|edit| edit.depth >= depth) else {
-            return false;
-        };
-        self.set_tagged(edit.path.clone(), edit.before.clone());
-        self.folder.undone.push(edit);
-        true
-    }
-
-    /// Whether the next thing to be done again is a change of tags.
-    pub(in crate::app) fn redo_tag(&mut self) -> bool {
-        let depth = self.history.depth();
-        let Some(edit) = self.folder.undone.pop_if(|edit| edit.depth <= depth) else {
-            return false;
-        };
-        self.set_tagged(edit.path.clone(), edit.after.clone());
-        self.folder.done.push(edit);
-        true
-    }
-
-    pub(in crate::app) fn can_undo_tag(&self) -> bool {
-        !self.folder.done.is_empty()
-    }
-
-    pub(in crate::app) fn can_redo_tag(&self) -> bool {
-        let depth = self.history.depth();
-        self.folder.undone.last().is_some_and(|edit| edit.depth <= depth)
-    }
-
-    fn take_tags(&mut self) {
-        while let Some(answer) = self.folder.scribe.take() {
-            match answer {
-                Answer::Read(folder, Ok(mut tags)) => {
-                    let rows = Arc::make_mut(&mut self.state.folder.rows);
-                    for (place, row) in rows.iter_mut().enumerate() {
-                        let is_there = row.path.as_deref().and_then(Path::parent) == Some(&*folder);
-                        // What was said while the file was read is newer.
-                        let said = self
-                            .folder
-                            .done
-                            .iter()
-                            .any(|edit| Some(&edit.path) == row.path.as_ref());
-                        if !is_there || said {
-                            continue;
-                        }
-                        let name = row.path.as_deref().map(name_of).unwrap_or_default();
-                        if let Some(tagged) = tags.remove(&name) {
-                            row.tagged = tagged;
-                            row.write_cells(place);
-                        }
-                    }
-                    self.gather_tags();
-                    self.reorder();
-                }
-                Answer::Read(_, Err(problem)) | Answer::Written(Err(problem)) => self.say(true, problem),
-                Answer::Written(Ok(())) => {}
-            }
-        }
     }
 }
 

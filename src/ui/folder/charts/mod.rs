@@ -1,16 +1,16 @@
 //! Charts of the errors of the clouds that the table shows. A click on a bar or a point opens its cloud.
 
 mod data;
+mod guides;
 
-use egui::{Align2, Color32, Id, Key, Response, RichText, Role, Stroke, Ui, WidgetInfo, pos2, vec2};
-use egui_plot::{
-    Bar, BarChart, HLine, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points,
-};
+use egui::{Align2, Color32, Id, Key, Response, RichText, Role, Stroke, Ui, WidgetInfo, vec2};
+use egui_plot::{Bar, BarChart, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points};
 
 use super::{FolderAnswer, bar};
 use crate::app::{Command, State};
 use crate::ui::controls::{small, warning_color};
 use data::{DISTANCE_BIN_CM, Data, FIG_8_DEG, FIG_12_DEG, FIG_13_DEG, Mark};
+use guides::Guides;
 
 /// Which chart is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -248,79 +248,6 @@ fn nearest(marks: &[Mark], transform: &egui_plot::PlotTransform, at: egui::Pos2)
     let of = marks.iter().map(|mark| (distance(mark), mark.place));
     let near = of.min_by(|a, b| a.0.total_cmp(&b.0))?;
     (near.0 <= REACH).then_some(near.1)
-}
-
-/// Lines to compare with, and what is written at them.
-struct Guides<'a, 'b> {
-    plot: &'a mut PlotUi<'b>,
-    color: Color32,
-    texts: Vec<Written>,
-}
-
-/// A text at the left or right edge of the chart, above or below the line at `y`.
-struct Written {
-    y: f64,
-    text: String,
-    align: Align2,
-}
-
-impl Guides<'_, '_> {
-    /// A dashed line at `y` with its text.
-    fn at(&mut self, y: f64, text: &str, align: Align2) {
-        self.line(
-            y,
-            text,
-            self.color.gamma_multiply(0.75),
-            LineStyle::dashed_dense(),
-        );
-        self.write(y, text, align);
-    }
-
-    /// The clouds' own mean, with its text at the right.
-    fn mean(&mut self, y: f64) {
-        let text = format!("mean {y:.1}°");
-        self.line(y, &text, CURRENT, LineStyle::Solid);
-        self.write(y, &text, Align2::RIGHT_BOTTOM);
-    }
-
-    fn line(&mut self, y: f64, name: &str, color: Color32, style: LineStyle) {
-        let line = HLine::new(name, y).color(color).style(style).width(1.5);
-        self.plot.hline(line.allow_hover(false));
-    }
-
-    fn write(&mut self, y: f64, text: &str, align: Align2) {
-        self.texts.push(Written {
-            y,
-            text: text.to_owned(),
-            align,
-        });
-    }
-}
-
-impl Written {
-    /// Over everything else, on a ground of its own: bars may lie behind it. It has no part in the bounds.
-    fn paint(&self, ui: &Ui, transform: &egui_plot::PlotTransform) {
-        let frame = *transform.frame();
-        let y = transform.position_from_point_y(self.y);
-        let is_left = self.align.x() == egui::Align::Min;
-        let x = if is_left {
-            frame.left() + 6.0
-        } else {
-            frame.right() - 6.0
-        };
-        let painter = ui.painter().with_clip_rect(frame);
-        let (font, color) = (small(ui), ui.visuals().text_color());
-        let galley = painter.layout_no_wrap(self.text.clone(), font, color);
-        let away = if self.align.y() == egui::Align::Max {
-            -2.0
-        } else {
-            2.0
-        };
-        let place = self.align.anchor_size(pos2(x, y + away), galley.size());
-        let ground = ui.visuals().extreme_bg_color.gamma_multiply(0.8);
-        painter.rect_filled(place.expand2(vec2(3.0, 0.0)), 2.0, ground);
-        painter.galley(place.min, galley, color);
-    }
 }
 
 fn clouds(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>, state: &State) {
