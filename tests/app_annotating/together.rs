@@ -212,3 +212,38 @@ fn the_loop_goes_from_cloud_to_cloud() {
         "told from the files"
     );
 }
+
+#[test]
+fn the_table_knows_an_axis_as_soon_as_it_is_set() {
+    let (_folder, paths) = folder(1);
+    let mut app = editing(&paths);
+    let row = |app: &App| {
+        let outcome = app.state().folder.rows[0].outcome.clone().expect("evaluated");
+        outcome.row().clone()
+    };
+    assert_eq!(row(&app).manual_error_deg, None);
+    let ends = set_by_clicks(&mut app);
+    let computed = app
+        .state()
+        .analysis()
+        .and_then(|a| a.axis.clone())
+        .expect("an axis");
+    let between = computed.direction.dot(ends.direction()).abs().acos().to_degrees();
+    let error = row(&app).manual_error_deg.expect("measured");
+    assert!((error - between).abs() < 1e-6, "{error} {between}");
+    assert_eq!(row(&app).annotators, "Ada");
+    annotate(&mut app, AnnotateCommand::Undo);
+    assert_eq!(row(&app).manual_error_deg, None);
+}
+
+#[test]
+fn one_tool_at_a_time_has_the_left_button() {
+    let (_folder, paths) = folder(1);
+    let mut app = editing(&paths);
+    act(&mut app, Command::Use(Tool::Lasso));
+    assert!(!app.state().annotating.is_editing);
+    assert_eq!(app.state().tool, Tool::Lasso);
+    annotate(&mut app, AnnotateCommand::Edit(true));
+    assert!(app.state().annotating.is_editing);
+    assert_eq!(app.state().tool, Tool::Navigate);
+}

@@ -258,6 +258,7 @@ impl App {
             let (references, warnings) = compared(&walked.fruit, request, &walked.analysis);
             (self.state.references, self.state.warnings) = (references, warnings);
             self.state.walked = Some(Arc::new(walked));
+            self.take_current_row();
         }
     }
 
