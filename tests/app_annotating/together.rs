@@ -247,3 +247,16 @@ fn one_tool_at_a_time_has_the_left_button() {
     assert!(app.state().annotating.is_editing);
     assert_eq!(app.state().tool, Tool::Navigate);
 }
+
+#[test]
+fn an_axis_that_is_set_is_drawn_among_all_references_at_once() {
+    let (_folder, paths) = folder(1);
+    let mut app = editing(&paths);
+    let mut style = app.state().style.clone();
+    style.overlays.set(Overlay::References, true);
+    act(&mut app, Command::Style(Box::new(style)));
+    let lines = |app: &App| app.state().look.as_ref().expect("drawn").scene.lines.len();
+    let before = lines(&app);
+    set_by_clicks(&mut app);
+    assert!(lines(&app) > before, "{} and {before}", lines(&app));
+}

@@ -259,6 +259,8 @@ impl App {
             (self.state.references, self.state.warnings) = (references, warnings);
             self.state.walked = Some(Arc::new(walked));
             self.take_current_row();
+            // The view may draw all of them.
+            self.shown_generation += 1;
         }
     }
 
