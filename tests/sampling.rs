@@ -148,6 +148,6 @@ fn every_point_of_a_sampled_cloud_is_shown_as_the_used_point_nearest_to_it() {
         }
     }
     assert_eq!(shown.in_surface.iter().last(), Some(None));
-    let without = shown.in_surface.iter().filter(|i| i.is_none()).count();
+    let without = shown.in_surface.iter().filter(Option::is_none).count();
     assert!(without < 50, "{without}");
 }

@@ -305,7 +305,7 @@ fn by_normal(subject: Subject<'_>) -> Colored {
         .iter()
         .map(|place| place.map_or(NEUTRAL, |i| direction_color(normals[i])))
         .collect();
-    let unused = shown.in_surface.iter().filter(|i| i.is_none()).count();
+    let unused = shown.in_surface.iter().filter(Option::is_none).count();
     let direction = |label: &str, v: glam::DVec3| Swatch {
         color: direction_color(v),
         label: label.into(),
