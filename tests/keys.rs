@@ -1,16 +1,20 @@
 //! Every key does one thing, whatever is in hand.
 
 use std::collections::HashMap;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use axiscope::app::{AnnotateCommand, App, Command, Sample, Session, Tool};
+use axiscope::app::{AnnotateCommand, App, Command, Session, Tool};
 use axiscope::ui::actions::{Action, actions};
 
-/// The sample, analyzed.
-fn app() -> App {
+/// A cloud, analyzed.
+fn app(folder: &Path) -> App {
     let mut app = App::new(Session::first(), &(Arc::new(|| {}) as _)).expect("threads can be started");
-    app.apply(Command::OpenSample(Sample::Pepper));
+    let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/pepper.ply");
+    let cloud = folder.join("pepper.ply");
+    std::fs::copy(sample, &cloud).expect("the sample");
+    app.apply(Command::Open(vec![cloud]));
     let began = Instant::now();
     while app.state().look.is_none() || app.is_busy() {
         app.update(Duration::from_millis(1));
@@ -35,7 +39,8 @@ fn assert_one_meaning(app: &App, what: &str) {
 
 #[test]
 fn a_key_has_one_meaning_in_each_mode() {
-    let mut app = app();
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut app = app(folder.path());
     assert_one_meaning(&app, "at first");
     for tool in [Tool::MoveCenter, Tool::Lasso, Tool::Brush] {
         app.apply(Command::Use(tool));

@@ -163,7 +163,7 @@ fn what_is_picked_is_saved_with_a_key_and_never_over_another_file() {
 fn the_tools_fit_a_narrow_window_in_the_light() {
     let folder = TempDir::new().expect("a folder");
     let mut harness = window([820.0, 620.0], vec![pepper(&folder, true)]);
-    press(&mut harness, Modifiers::NONE, Key::T);
+    press(&mut harness, Modifiers::SHIFT, Key::T);
     apply(&mut harness, Command::View(ViewPreset::Front));
     press(&mut harness, Modifiers::NONE, Key::K);
     let path = around_the_peduncle(&harness);
