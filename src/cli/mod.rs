@@ -84,8 +84,9 @@ pub(crate) fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> anyhow::Result<()> {
-    if let Some(threads) = cli.threads {
-        use_threads(threads.into())?;
+    match cli.threads {
+        Some(threads) => use_threads(threads.into())?,
+        None => start_threads(),
     }
     #[cfg(feature = "window")]
     if let (Some(_), Some(path)) = (&cli.command, cli.paths.first()) {
@@ -166,6 +167,13 @@ fn manual(page: &mut Vec<u8>) -> std::io::Result<()> {
         man.render_options_section(page)?;
     }
     Ok(())
+}
+
+/// The worker threads are there by the time the file is read.
+fn start_threads() {
+    // Where they cannot be started, whoever needs them says so.
+    #[cfg(feature = "parallel")]
+    let _ = rayon::ThreadPoolBuilder::new().build_global();
 }
 
 #[cfg(feature = "parallel")]
