@@ -35,8 +35,9 @@ pub fn map_pieces<T: Send>(
         watch.advanced(done.fetch_add(1, Ordering::Relaxed) + 1, pieces);
         Ok(result)
     };
+    // Each piece may go to another core: what is left at the end is then as even as it can be.
     #[cfg(feature = "parallel")]
-    return (0..pieces).into_par_iter().map(one).collect();
+    return (0..pieces).into_par_iter().with_max_len(1).map(one).collect();
     #[cfg(not(feature = "parallel"))]
     (0..pieces).map(one).collect()
 }
