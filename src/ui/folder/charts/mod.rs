@@ -133,10 +133,12 @@ fn failures(ui: &mut Ui, state: &State, data: &Data) -> Option<usize> {
 fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> {
     let (x, y) = chart.axes();
     // Another chart, or another set of clouds: what was zoomed into means nothing any more.
-    let salt = (chart.title(), data.bars.len(), data.failures.len());
+    let salt = (chart.title(), state.entries.len());
     let plot = Plot::new(salt)
         .x_axis_label(x)
         .y_axis_label(y)
+        // So that its name does not stand on the numbers in the first frame.
+        .y_axis_min_width(46.0)
         .include_y(0.0)
         .allow_scroll(false)
         .allow_boxed_zoom(false)
