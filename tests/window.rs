@@ -1,8 +1,7 @@
 //! The whole window, drawn by the software driver and driven by labels and keys as a person does.
 
 mod driving;
-
-use std::time::{Duration, Instant};
+mod in_window;
 
 use axiscope::app::{Command, PlaneChoice, Sample, Session, Tool};
 use axiscope::method::Preset;
@@ -10,74 +9,26 @@ use axiscope::ui::{Pane, Start, Window};
 use axiscope::view::{Coloring, Overlay, Theme, ViewPreset};
 use driving::asset;
 use egui::{Key, Modifiers, Vec2};
+use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use egui_kittest::{Harness, SnapshotOptions};
+use in_window::{Windowed, apply, compare, press, settle};
 
 /// A window of that size in logical pixels that keeps nothing, on a sample.
-fn window_of(
-    size: [f32; 2],
-    pixels_per_point: f32,
-    paths: Vec<std::path::PathBuf>,
-) -> Harness<'static, Window> {
-    let start = Start {
-        session: Session::first(),
-        session_path: None,
-        paths,
-        problem: None,
-    };
-    let mut harness = Harness::builder()
-        .with_size(Vec2::from(size))
-        .with_pixels_per_point(pixels_per_point)
-        .with_max_steps(64)
-        // Every control has a name that a screen reader can say.
-        .with_accessibility_check(true)
-        .wgpu()
-        .build_eframe(move |context| Window::new(context, start).expect("threads can be started"));
-    settle(&mut harness);
-    harness
+fn window_of(size: [f32; 2], pixels_per_point: f32, paths: Vec<std::path::PathBuf>) -> Windowed {
+    in_window::window_of(Session::first(), paths, size, pixels_per_point)
 }
 
-fn window() -> Harness<'static, Window> {
+fn window() -> Windowed {
     window_of([1360.0, 860.0], 1.0, Vec::new())
 }
 
-/// Frames until nothing is under way.
-fn settle(harness: &mut Harness<'static, Window>) {
-    let began = Instant::now();
-    let mut calm = 0;
-    while calm < 4 {
-        harness.step();
-        calm = if harness.state().app().is_busy() {
-            0
-        } else {
-            calm + 1
-        };
-        assert!(began.elapsed() < Duration::from_mins(1), "it never settles");
-    }
-}
-
-fn apply(harness: &mut Harness<'static, Window>, command: Command) {
-    harness.state_mut().app_mut().apply(command);
-    settle(harness);
-}
-
-fn press(harness: &mut Harness<'static, Window>, modifiers: Modifiers, key: Key) {
-    harness.key_press_modifiers(modifiers, key);
-    settle(harness);
-}
-
-/// Compares with the committed picture: a few pixels may differ a little, as between drivers.
-fn snapshot(harness: &mut Harness<'static, Window>, name: &str) {
+fn snapshot(harness: &mut Windowed, name: &str) {
     harness.remove_cursor();
     settle(harness);
-    let options = SnapshotOptions::new()
-        .output_path("screenshots/window")
-        .threshold(2.0)
-        .max_failed_pixels(10);
-    harness.snapshot_options(name, &options);
+    compare(harness, "screenshots/window", name);
 }
 
-fn color(harness: &mut Harness<'static, Window>, coloring: Coloring) {
+fn color(harness: &mut Windowed, coloring: Coloring) {
     let mut style = harness.state().app().state().style.clone();
     style.coloring = coloring;
     apply(harness, Command::Style(Box::new(style)));
@@ -153,7 +104,7 @@ fn the_worst_plane_looks_bad() {
 #[test]
 fn as_printed_fails_beside_as_intended() {
     let mut harness = window();
-    let error = |harness: &Harness<'static, Window>| {
+    let error = |harness: &Windowed| {
         let state = harness.state().app().state();
         let axis = state.analysis().and_then(|a| a.axis.clone()).expect("an axis");
         axiscope::reference::axis_error_rad(&axis, state.reference().expect("a peduncle")).to_degrees()
@@ -341,7 +292,7 @@ fn dragging_turns_the_camera_and_moves_the_center_only_in_its_mode() {
     );
 }
 
-fn drag(harness: &mut Harness<'static, Window>, from: egui::Pos2, by: Vec2) {
+fn drag(harness: &mut Windowed, from: egui::Pos2, by: Vec2) {
     harness.hover_at(from);
     harness.step();
     harness.drag_at(from);

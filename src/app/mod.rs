@@ -52,7 +52,7 @@ use stages::{Stages, WalkError};
 use worker::{Discard, Lane, Repaint};
 
 pub use annotating::{AnnotateCommand, Annotating};
-pub use caption::{caption, lead_in_words};
+pub use caption::{caption, grouped, lead_in_words};
 pub use command_line::{analysis_options, command_line, quoted};
 #[cfg(feature = "window")]
 pub use drawing::{Drawing, DrawingError, draw as draw_cloud};

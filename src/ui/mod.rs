@@ -26,6 +26,7 @@ mod plane_tip;
 mod planes;
 pub mod point;
 pub mod ranking;
+mod rows;
 mod save_image;
 pub mod score_map;
 pub mod scrub;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use egui::{Align2, Id, Rect, Response, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo, pos2, vec2};
 
 use super::planes::{PlaneFacts, Planes};
+use super::rows::into_view;
 use super::{notice, plane_tip};
 use crate::app::{Command, State, lead_in_words};
 
@@ -283,11 +284,7 @@ fn table(ui: &mut Ui, id: Id, width: f32, state: &State, rows: &Rows, commands: 
             ui.available_height()
         };
         if let Some(place) = place {
-            let top = place as f32 * row_height;
-            let is_visible = top >= seen.top && top + row_height <= seen.top + height;
-            if !is_visible {
-                area = area.vertical_scroll_offset((top - 0.4 * height).max(0.0));
-            }
+            area = into_view(area, place, row_height, seen.top, height);
         }
     }
     let mut hovered = None;

@@ -6,7 +6,7 @@ use axiscope::app::annotating::Ghost;
 
 use super::*;
 
-fn annotate(harness: &mut Harnessed, command: AnnotateCommand) {
+fn annotate(harness: &mut Windowed, command: AnnotateCommand) {
     apply(harness, Command::Annotate(command));
 }
 

@@ -2,24 +2,22 @@
 
 #[path = "../driving/mod.rs"]
 mod driving;
+#[path = "../in_window/mod.rs"]
+mod in_window;
 
 mod edits;
 mod looks;
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 use axiscope::annotate::{Annotation, Author, CloudId, Ends, Judgment, Store};
 use axiscope::app::annotating::{EditView, Handle};
-use axiscope::app::{Annotating, Command, Session, State};
+use axiscope::app::{Annotating, Command, Session};
 use axiscope::io::{DiskFiles, Fruit, PeduncleChoice};
-use axiscope::ui::{Start, Window};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
-use egui_kittest::{Harness, SnapshotOptions};
 use glam::DVec2;
-
-type Harnessed = Harness<'static, Window>;
+use in_window::{Windowed, apply, compare, press, settle, state};
 
 /// A folder with so many copies of the bundled pepper.
 fn folder(clouds: usize) -> (tempfile::TempDir, Vec<PathBuf>) {
@@ -37,81 +35,39 @@ fn ada() -> Author {
 }
 
 /// A window on these clouds, whose annotator has said her name before.
-fn window(paths: &[PathBuf], size: [f32; 2]) -> Harnessed {
+fn window(paths: &[PathBuf], size: [f32; 2]) -> Windowed {
     let mut session = Session::first();
     session.annotating.name = "Ada".into();
     window_of(session, paths, size)
 }
 
-fn window_of(session: Session, paths: &[PathBuf], size: [f32; 2]) -> Harnessed {
-    let start = Start {
-        session,
-        session_path: None,
-        paths: paths.to_vec(),
-        problem: None,
-    };
-    let mut harness = Harness::builder()
-        .with_size(Vec2::from(size))
-        .with_max_steps(64)
-        .with_accessibility_check(true)
-        .wgpu()
-        .build_eframe(move |context| Window::new(context, start).expect("threads can be started"));
-    settle(&mut harness);
-    harness
+fn window_of(session: Session, paths: &[PathBuf], size: [f32; 2]) -> Windowed {
+    in_window::window_of(session, paths.to_vec(), size, 1.0)
 }
 
 const SIZE: [f32; 2] = [1360.0, 860.0];
 
-/// Frames until nothing is under way.
-fn settle(harness: &mut Harnessed) {
-    let began = Instant::now();
-    let mut calm = 0;
-    while calm < 4 {
-        harness.step();
-        calm = if harness.state().app().is_busy() {
-            0
-        } else {
-            calm + 1
-        };
-        assert!(began.elapsed() < Duration::from_mins(1), "it never settles");
-    }
-}
-
-fn press(harness: &mut Harnessed, modifiers: Modifiers, key: Key) {
-    harness.key_press_modifiers(modifiers, key);
-    settle(harness);
-}
-
-fn apply(harness: &mut Harnessed, command: Command) {
-    harness.state_mut().app_mut().apply(command);
-    settle(harness);
-}
-
-fn state(harness: &Harnessed) -> &State {
-    harness.state().app().state()
-}
-
-fn annotating(harness: &Harnessed) -> &Annotating {
+fn annotating(harness: &Windowed) -> &Annotating {
     &state(harness).annotating
 }
 
 /// The large view on the screen.
-fn view(harness: &Harnessed) -> egui::Rect {
+fn view(harness: &Windowed) -> egui::Rect {
     harness.get_by_label_contains("3-D view of").rect()
 }
 
-fn locked(harness: &Harnessed, view: EditView) -> egui::Rect {
+fn locked(harness: &Windowed, view: EditView) -> egui::Rect {
     harness
         .get_by_label(&format!("Locked view: {}", view.title()))
         .rect()
 }
 
-fn move_to(harness: &mut Harnessed, at: Pos2) {
+fn move_to(harness: &mut Windowed, at: Pos2) {
     harness.event(Event::PointerMoved(at));
     harness.step();
 }
 
-fn button(harness: &mut Harnessed, at: Pos2, button: PointerButton, pressed: bool) {
+fn button(harness: &mut Windowed, at: Pos2, button: PointerButton, pressed: bool) {
     harness.event(Event::PointerButton {
         pos: at,
         button,
@@ -121,14 +77,14 @@ fn button(harness: &mut Harnessed, at: Pos2, button: PointerButton, pressed: boo
     harness.step();
 }
 
-fn click(harness: &mut Harnessed, at: Pos2) {
+fn click(harness: &mut Windowed, at: Pos2) {
     move_to(harness, at);
     button(harness, at, PointerButton::Primary, true);
     button(harness, at, PointerButton::Primary, false);
     settle(harness);
 }
 
-fn drag(harness: &mut Harnessed, which: PointerButton, from: Pos2, by: Vec2) {
+fn drag(harness: &mut Windowed, which: PointerButton, from: Pos2, by: Vec2) {
     move_to(harness, from);
     button(harness, from, which, true);
     for step in 1..=8 {
@@ -139,7 +95,7 @@ fn drag(harness: &mut Harnessed, which: PointerButton, from: Pos2, by: Vec2) {
 }
 
 /// Where a handle shows in the large view.
-fn handle_on_screen(harness: &Harnessed, handle: Handle) -> Pos2 {
+fn handle_on_screen(harness: &Windowed, handle: Handle) -> Pos2 {
     let state = state(harness);
     let ends = state.annotating.ends().expect("an axis");
     let at = state
@@ -150,14 +106,14 @@ fn handle_on_screen(harness: &Harnessed, handle: Handle) -> Pos2 {
 }
 
 /// Both ends of the bundled pepper, as an eye sees them in the first view.
-fn set_by_clicks(harness: &mut Harnessed) -> Ends {
+fn set_by_clicks(harness: &mut Windowed) -> Ends {
     let (base, blossom) = where_ends_are(harness);
     click(harness, base);
     click(harness, blossom);
     annotating(harness).set_ends().expect("an axis")
 }
 
-fn where_ends_are(harness: &Harnessed) -> (Pos2, Pos2) {
+fn where_ends_are(harness: &Windowed) -> (Pos2, Pos2) {
     let view = view(harness);
     (
         view.lerp_inside(vec2(0.47, 0.33)),
@@ -187,13 +143,9 @@ fn set_as(name: &str, cloud: &Path, ends: Ends) {
 
 /// Compares with the committed picture: a few pixels may differ a little, as between drivers. The cursor
 /// stays where it is.
-fn snapshot(harness: &mut Harnessed, name: &str) {
+fn snapshot(harness: &mut Windowed, name: &str) {
     settle(harness);
-    let options = SnapshotOptions::new()
-        .output_path("screenshots/annotating")
-        .threshold(2.0)
-        .max_failed_pixels(10);
-    harness.snapshot_options(name, &options);
+    compare(harness, "screenshots/annotating", name);
 }
 
 fn pixel_in(rect: egui::Rect, at: Pos2) -> DVec2 {

@@ -2,85 +2,38 @@
 
 #[path = "../driving/mod.rs"]
 mod driving;
+#[path = "../in_window/mod.rs"]
+mod in_window;
 mod panel;
 mod tools;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use axiscope::app::peduncle::Question;
-use axiscope::app::{Command, PeduncleCommand, Session, State, Tool};
+use axiscope::app::{Command, PeduncleCommand, Session, Tool};
 use axiscope::geometry::{Cloud, PointSet};
 use axiscope::io::ply::{WriteOptions, write};
 use axiscope::io::{PeduncleChoice, read_cloud};
 use axiscope::reference::{HueRange, Peduncle, PeduncleSource};
-use axiscope::ui::{Start, Window};
 use axiscope::view::{Overlay, ViewPreset};
 use driving::asset;
 use egui::{Key, Modifiers, PointerButton, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
-use egui_kittest::{Harness, SnapshotOptions};
+use in_window::{Windowed, apply, compare, press, settle, state, window_of};
 use tempfile::TempDir;
 
-type Bench = Harness<'static, Window>;
-
-fn window(size: [f32; 2], paths: Vec<PathBuf>) -> Bench {
-    let start = Start {
-        session: Session::first(),
-        session_path: None,
-        paths,
-        problem: None,
-    };
-    let mut harness = Harness::builder()
-        .with_size(Vec2::from(size))
-        .with_max_steps(64)
-        .with_accessibility_check(true)
-        .wgpu()
-        .build_eframe(move |context| Window::new(context, start).expect("threads can be started"));
-    settle(&mut harness);
-    harness
+fn window(size: [f32; 2], paths: Vec<PathBuf>) -> Windowed {
+    window_of(Session::first(), paths, size, 1.0)
 }
 
-fn settle(harness: &mut Bench) {
-    let began = Instant::now();
-    let mut calm = 0;
-    while calm < 4 {
-        harness.step();
-        calm = if harness.state().app().is_busy() {
-            0
-        } else {
-            calm + 1
-        };
-        assert!(began.elapsed() < Duration::from_mins(1), "it never settles");
-    }
-}
-
-fn state(harness: &Bench) -> &State {
-    harness.state().app().state()
-}
-
-fn apply(harness: &mut Bench, command: Command) {
-    harness.state_mut().app_mut().apply(command);
-    settle(harness);
-}
-
-fn press(harness: &mut Bench, modifiers: Modifiers, key: Key) {
-    harness.key_press_modifiers(modifiers, key);
-    settle(harness);
-}
-
-fn click(harness: &mut Bench, label: &str) {
+fn click(harness: &mut Windowed, label: &str) {
     harness.get_by_label(label).click();
     settle(harness);
 }
 
-fn snapshot(harness: &mut Bench, name: &str) {
-    let options = SnapshotOptions::new()
-        .output_path("screenshots/peduncle")
-        .threshold(2.0)
-        .max_failed_pixels(10);
-    harness.snapshot_options(name, &options);
+fn snapshot(harness: &mut Windowed, name: &str) {
+    compare(harness, "screenshots/peduncle", name);
 }
 
 /// A copy of the bundled pepper of which only positions, or positions and colors, are left.
@@ -112,7 +65,7 @@ fn labeled() -> PointSet {
 }
 
 /// A closed line around the places at which the peduncle shows in the window.
-fn around_the_peduncle(harness: &Bench) -> Vec<Pos2> {
+fn around_the_peduncle(harness: &Windowed) -> Vec<Pos2> {
     let rect = harness.get_by_label_contains("3-D view of").rect();
     let (camera, viewport) = (state(harness).camera, state(harness).viewport);
     let cloud = state(harness).walked.as_ref().expect("analyzed").fruit.cloud();
@@ -133,13 +86,13 @@ fn around_the_peduncle(harness: &Bench) -> Vec<Pos2> {
 
 /// Drags with a button along a path; `before_letting_go` sees the window while it is held.
 fn drag(
-    harness: &mut Bench,
+    harness: &mut Windowed,
     button: PointerButton,
     modifiers: Modifiers,
     path: &[Pos2],
-    before_letting_go: impl FnOnce(&mut Bench),
+    before_letting_go: impl FnOnce(&mut Windowed),
 ) {
-    let event = |harness: &mut Bench, event: egui::Event| {
+    let event = |harness: &mut Windowed, event: egui::Event| {
         harness.event(event);
         harness.step();
     };
@@ -164,10 +117,10 @@ fn drag(
     settle(harness);
 }
 
-fn draw(harness: &mut Bench, modifiers: Modifiers, path: &[Pos2]) {
+fn draw(harness: &mut Windowed, modifiers: Modifiers, path: &[Pos2]) {
     drag(harness, PointerButton::Primary, modifiers, path, |_| {});
 }
 
-fn picked(harness: &Bench) -> usize {
+fn picked(harness: &Windowed) -> usize {
     state(harness).picked_peduncle().map_or(0, |points| points.len())
 }

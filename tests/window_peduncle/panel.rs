@@ -17,7 +17,7 @@ impl egui::DroppedFile for Dropped {
 }
 
 /// The parameters' panel with the peduncle's section open and everything above it closed.
-fn open_section(harness: &mut Bench) {
+fn open_section(harness: &mut Windowed) {
     click(harness, "Peduncle");
     let section = harness.get_by_label("Peduncle");
     section.scroll_to_me();

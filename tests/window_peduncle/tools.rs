@@ -134,7 +134,7 @@ fn what_is_picked_is_saved_with_a_key_and_never_over_another_file() {
     draw(&mut harness, Modifiers::NONE, &path);
     harness.get_by_label("not saved in a file yet");
     press(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
-    let said = |harness: &Bench, text: &str| state(harness).messages.iter().any(|m| m.text.contains(text));
+    let said = |harness: &Windowed, text: &str| state(harness).messages.iter().any(|m| m.text.contains(text));
     assert!(
         said(&harness, "Save it first"),
         "the command line does not know it"

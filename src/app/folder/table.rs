@@ -7,6 +7,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::tags::Tagged;
+use crate::app::grouped;
 use crate::evaluate::{Outcome, TruthChoice};
 
 /// What the table can be sorted by.
@@ -274,17 +275,4 @@ pub fn ordered(rows: &[TableRow], sort: Sort, filter: &Filter, choice: TruthChoi
         Column::Tags => by(&text(|r| r.cells[10].clone())),
     }
     order
-}
-
-/// A count with thin gaps between thousands.
-fn grouped(count: u64) -> String {
-    let digits = count.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }

@@ -7,9 +7,8 @@ use egui::{
 };
 
 use super::super::controls::small;
-use super::grouped;
-use crate::app::Command;
 use crate::app::look::Contributions;
+use crate::app::{Command, grouped};
 
 const BARS: Color32 = Color32::from_rgb(0x2b, 0x8c, 0xd6);
 const PICKED: Color32 = Color32::from_rgb(0xe6, 0x9f, 0x00);
@@ -60,7 +59,7 @@ impl Histogram<'_> {
         let most_points = self.contributions.counts.iter().copied().max().unwrap_or(0);
         let widest = ui
             .painter()
-            .layout_no_wrap(grouped(most_points), small.clone(), Color32::PLACEHOLDER)
+            .layout_no_wrap(grouped(most_points as u64), small.clone(), Color32::PLACEHOLDER)
             .size()
             .x;
         let mut bars = rect;
@@ -201,7 +200,7 @@ impl Histogram<'_> {
         // Not negative.
         let bin = ((cm / self.contributions.bin_cm) as usize).min(last);
         let (from, to) = self.span(bin);
-        let points = grouped(self.contributions.counts[bin]);
+        let points = grouped(self.contributions.counts[bin] as u64);
         let is_open = bin == last && self.contributions.most_cm > to;
         let range = if is_open {
             format!("{from:.3} cm and above")
@@ -259,7 +258,7 @@ fn paint_axes(ui: &Ui, frame: &Frame, font: &FontId, rect: Rect) {
         font.clone(),
         color,
     );
-    let most = grouped(frame.most_points);
+    let most = grouped(frame.most_points as u64);
     let left = frame.bars.left() - 4.0;
     painter.text(
         pos2(left, frame.bars.top()),

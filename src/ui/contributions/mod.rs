@@ -10,7 +10,7 @@ use egui::{Key, RichText, Ui};
 use super::controls::{hint, small};
 use crate::app::look::Look;
 use crate::app::why::why;
-use crate::app::{Command, State};
+use crate::app::{Command, State, grouped};
 use histogram::Histogram;
 
 /// Shows the histogram, and says what is brushed.
@@ -39,7 +39,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         format!(
             "{} {} points with a partner add to the score, S = d + τξ (Eq. 15)",
             plane.as_deref().unwrap_or("What the"),
-            grouped(points),
+            grouped(points as u64),
         ),
     );
     let picked_cm = state
@@ -92,7 +92,7 @@ fn brushed(ui: &mut Ui, look: &Look, brush_cm: &RangeInclusive<f64>, commands: &
     ui.horizontal_wrapped(|ui| {
         let text = format!(
             "{range}: {} points, {:.0} % of the points and {:.0} % of the sum",
-            grouped(counted.points),
+            grouped(counted.points as u64),
             100.0 * counted.points as f64 / counted.all_points.max(1) as f64,
             100.0 * counted.share_of_sum
         );
@@ -110,19 +110,6 @@ fn brushed(ui: &mut Ui, look: &Look, brush_cm: &RangeInclusive<f64>, commands: &
     if no_field_has_focus && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape)) {
         commands.push(Command::Brush(None));
     }
-}
-
-/// A count with thin gaps between thousands.
-fn grouped(count: usize) -> String {
-    let digits = count.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 /// What lies in the brush: counted once for each brush, not each frame.
@@ -179,7 +166,7 @@ mod tests {
         assert_eq!(
             ["0", "999", "1,000", "1,234,567"],
             [0, 999, 1000, 1_234_567]
-                .map(grouped)
+                .map(|points| grouped(points as u64))
                 .each_ref()
                 .map(String::as_str)
         );

@@ -5,7 +5,7 @@ use std::time::Duration;
 use egui::{Button, ProgressBar, Ui, vec2};
 
 use super::FolderAnswer;
-use crate::app::folder::FolderCommand;
+use crate::app::folder::{FolderCommand, FolderProgress};
 use crate::app::{Command, State, TruthChoice};
 use crate::ui::controls::{Choice, choose};
 
@@ -65,15 +65,7 @@ fn evaluation(ui: &mut Ui, state: &State, say: &mut impl FnMut(FolderCommand)) {
         if button.clicked() {
             say(FolderCommand::Cancel);
         }
-        let left = progress.left.map(|left| format!(", {}", in_words(left)));
-        let text = format!(
-            "{} of {} clouds{}",
-            progress.done,
-            progress.total,
-            left.unwrap_or_default()
-        );
-        let share = progress.done as f32 / progress.total.max(1) as f32;
-        ui.add(ProgressBar::new(share).desired_width(260.0).text(text));
+        progress_bar(ui, progress);
         return;
     }
     let missing = folder.missing;
@@ -103,8 +95,21 @@ fn evaluation(ui: &mut Ui, state: &State, say: &mut impl FnMut(FolderCommand)) {
     }
 }
 
+/// How far something is that is done for all clouds.
+pub(super) fn progress_bar(ui: &mut Ui, progress: FolderProgress) {
+    let left = progress.left.map(|left| format!(", {}", in_words(left)));
+    let text = format!(
+        "{} of {} clouds{}",
+        progress.done,
+        progress.total,
+        left.unwrap_or_default()
+    );
+    let share = progress.done as f32 / progress.total.max(1) as f32;
+    ui.add(ProgressBar::new(share).desired_width(260.0).text(text));
+}
+
 /// How long something will take, as people say it.
-pub(super) fn in_words(left: Duration) -> String {
+fn in_words(left: Duration) -> String {
     let seconds = left.as_secs_f64();
     if seconds < 10.0 {
         "a few seconds left".into()

@@ -1,8 +1,7 @@
 //! The map of the mean error over u and τ: a cell a setting, which a click opens.
 
 use egui::{
-    Align2, Button, Checkbox, DragValue, Mesh, ProgressBar, Rect, Response, Role, Sense, Ui, WidgetInfo,
-    pos2, vec2,
+    Align2, Button, Checkbox, DragValue, Mesh, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::{FolderAnswer, bar};
@@ -88,15 +87,7 @@ fn wish(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             {
                 say(FolderCommand::CancelSweep);
             }
-            let left = progress.left.map(|left| format!(", {}", bar::in_words(left)));
-            let text = format!(
-                "{} of {} clouds{}",
-                progress.done,
-                progress.total,
-                left.unwrap_or_default()
-            );
-            let share = progress.done as f32 / progress.total.max(1) as f32;
-            ui.add(ProgressBar::new(share).desired_width(260.0).text(text));
+            bar::progress_bar(ui, progress);
             return;
         }
         let settings = wish.settings();

@@ -11,6 +11,7 @@ use super::{FolderAnswer, bar, filters, tagging};
 use crate::app::folder::{Column, FolderCommand, Sort, TableRow};
 use crate::app::{Command, State};
 use crate::ui::controls::warning_color;
+use crate::ui::rows::into_view;
 
 impl Column {
     fn title(self) -> &'static str {
@@ -220,11 +221,7 @@ fn body(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Comma
             ui.available_height()
         };
         if let Some(place) = place {
-            let top = place as f32 * row_height;
-            let is_visible = top >= seen.top && top + row_height <= seen.top + height;
-            if !is_visible {
-                area = area.vertical_scroll_offset((top - 0.4 * height).max(0.0));
-            }
+            area = into_view(area, place, row_height, seen.top, height);
         }
     }
     let output = area.show_rows(ui, row_height, folder.order.len(), |ui, range| {
