@@ -11,9 +11,9 @@ use axiscope::app::folder::{
     Column, Filter, FolderCommand, Sort, SweepWish, TableRow, Tagged, evaluate_command_line, ordered,
 };
 use axiscope::app::{App, Command, Session};
-use axiscope::evaluate::{Request, Row, TruthChoice, examine};
+use axiscope::evaluate::{Row, TruthChoice, examine};
 use axiscope::io::Fruit;
-use driving::{act, app, settle};
+use driving::{act, app, set, settle};
 use peppers::{make_older, write_peppers};
 use proptest::prelude::*;
 use tempfile::TempDir;
@@ -44,19 +44,6 @@ fn names_in_order(app: &App) -> Vec<String> {
         .iter()
         .map(|&place| folder.rows[place].name.clone())
         .collect()
-}
-
-fn set(app: &mut App, change: impl FnOnce(&mut Request)) {
-    let mut request = app.state().settings.request.clone();
-    change(&mut request);
-    let request = Box::new(request);
-    act(
-        app,
-        Command::Set {
-            request,
-            gesture: None,
-        },
-    );
 }
 
 fn folder(command: FolderCommand) -> Command {

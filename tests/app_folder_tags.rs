@@ -7,8 +7,7 @@ use std::path::Path;
 
 use axiscope::app::folder::{FolderCommand, TAGS_FILE, Tagged};
 use axiscope::app::{App, Command};
-use axiscope::evaluate::Request;
-use driving::{act, app, settle};
+use driving::{act, app, set, settle};
 use peppers::write_peppers;
 use tempfile::TempDir;
 
@@ -18,19 +17,6 @@ fn opened(folder: &Path, cache: &Path) -> App {
     app.keep_rows_in(cache.to_owned());
     act(&mut app, Command::Open(vec![folder.to_owned()]));
     app
-}
-
-fn set(app: &mut App, change: impl FnOnce(&mut Request)) {
-    let mut request = app.state().settings.request.clone();
-    change(&mut request);
-    let request = Box::new(request);
-    act(
-        app,
-        Command::Set {
-            request,
-            gesture: None,
-        },
-    );
 }
 
 fn folder(command: FolderCommand) -> Command {

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Id, Rect, Response, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Id, Rect, Response, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::planes::{PlaneFacts, Planes};
-use super::rows::into_view;
+use super::rows::{arrow, into_view};
 use super::{notice, plane_tip};
 use crate::app::{Command, State, lead_in_words};
 
@@ -236,19 +236,6 @@ fn header(ui: &mut Ui, id: Id, width: f32, planes: &Arc<Planes>) -> Rows {
     };
     ui.data_mut(|data| data.insert_temp(id, rows.clone()));
     rows
-}
-
-/// A small triangle: up where values grow downward.
-fn arrow(ui: &Ui, middle: egui::Pos2, is_descending: bool) {
-    let way = if is_descending { 1.0 } else { -1.0 };
-    let corners = vec![
-        middle + vec2(-3.5, -2.0 * way),
-        middle + vec2(3.5, -2.0 * way),
-        middle + vec2(0.0, 3.0 * way),
-    ];
-    let color = ui.visuals().strong_text_color();
-    ui.painter()
-        .add(Shape::convex_polygon(corners, color, egui::Stroke::NONE));
 }
 
 /// Planes without a score, and then those without the value, come last whichever way.

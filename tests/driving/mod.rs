@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use axiscope::app::{App, Command, Sample, Session};
+use axiscope::evaluate::Request;
 
 /// A program with nothing open.
 pub fn app() -> App {
@@ -46,4 +47,18 @@ pub fn act(app: &mut App, command: Command) {
 /// A bundled cloud's file.
 pub fn asset(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("assets").join(name)
+}
+
+/// Changes how clouds are analyzed, and waits for it.
+pub fn set(app: &mut App, change: impl FnOnce(&mut Request)) {
+    let mut request = app.state().settings.request.clone();
+    change(&mut request);
+    let request = Box::new(request);
+    act(
+        app,
+        Command::Set {
+            request,
+            gesture: None,
+        },
+    );
 }

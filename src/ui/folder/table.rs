@@ -4,14 +4,14 @@
 use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{
     Align2, Color32, EventFilter, FontId, Id, Key, Modifiers, Panel, Rect, Response, Role, ScrollArea, Sense,
-    Shape, Stroke, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::{FolderAnswer, bar, filters, tagging};
 use crate::app::folder::{Column, FolderCommand, Sort, TableRow};
 use crate::app::{Command, State};
 use crate::ui::controls::warning_color;
-use crate::ui::rows::into_view;
+use crate::ui::rows::{arrow, into_view};
 
 impl Column {
     fn title(self) -> &'static str {
@@ -183,19 +183,6 @@ fn header(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Com
     }
     let line = ui.visuals().widgets.noninteractive.bg_stroke;
     ui.painter().hline(rect.x_range(), rect.bottom(), line);
-}
-
-/// A small triangle: up where values grow downward.
-fn arrow(ui: &Ui, middle: egui::Pos2, is_descending: bool) {
-    let way = if is_descending { 1.0 } else { -1.0 };
-    let corners = vec![
-        middle + vec2(-3.5, -2.0 * way),
-        middle + vec2(3.5, -2.0 * way),
-        middle + vec2(0.0, 3.0 * way),
-    ];
-    let color = ui.visuals().strong_text_color();
-    ui.painter()
-        .add(Shape::convex_polygon(corners, color, Stroke::NONE));
 }
 
 fn body(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
