@@ -25,6 +25,7 @@ pub use extent::Extent;
 pub use filters::statistical_inliers;
 pub(crate) use line::angles_between_directions_rad;
 pub use line::{angle_between_directions_rad, angle_between_lines_rad};
+pub(crate) use neighbors::{BLOCK, Nearest, Together};
 pub use neighbors::{Neighbor, Neighbors};
 pub use normals::estimate_normals;
 pub use parallel::{Crew, map_pieces};

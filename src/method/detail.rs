@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::Surface;
-use super::partners::partners_once;
+use super::partners::{Take, partners_once};
 use super::terms::PIECE;
 use crate::geometry::{Cancelled, Plane, Unit, Watch, map_pieces};
 
@@ -80,17 +80,35 @@ pub fn plane_detail(
     // Nothing is indexed, and nothing found, where there are more points than can be.
     if surface.neighbors().is_some() {
         let pieces = map_pieces(surface.len(), PIECE, watch, |range| {
-            partners_once(surface, range, &plane, viewpoint)
+            let found = Found {
+                unit_in_cm: unit.in_cm(),
+                partners: Vec::with_capacity(range.len()),
+            };
+            partners_once(surface, range, &plane, viewpoint, found).partners
         })?;
-        for found in pieces.into_iter().flatten() {
-            for (k, &i) in found.point.iter().enumerate() {
-                points[i as usize].partner = Some(Partner {
-                    index: found.index[k] as usize,
-                    distance_cm: found.distance[k] * unit.in_cm(),
-                    angle_rad: found.angle_rad[k],
-                });
-            }
+        for (i, partner) in pieces.into_iter().flatten() {
+            points[i as usize].partner = Some(partner);
         }
     }
     Ok(PlaneDetail { plane, points })
+}
+
+/// Keeps what is found, with the points' indices.
+struct Found {
+    unit_in_cm: f64,
+    partners: Vec<(u32, Partner)>,
+}
+
+impl Take for Found {
+    #[inline(always)]
+    fn take(&mut self, points: &[u32], partners: &[u32], distances: &[f64], angles_rad: &[f64]) {
+        for i in 0..points.len() {
+            let partner = Partner {
+                index: partners[i] as usize,
+                distance_cm: distances[i] * self.unit_in_cm,
+                angle_rad: angles_rad[i],
+            };
+            self.partners.push((points[i], partner));
+        }
+    }
 }

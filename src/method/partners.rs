@@ -9,24 +9,19 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use pulp::Simd;
 
 use super::Surface;
-use crate::geometry::{Neighbors, Plane, angles_between_directions_rad};
+use crate::geometry::{BLOCK, Nearest, Neighbors, Plane, Together, angles_between_directions_rad};
 
 /// Points that are reflected together: what the widest vectors hold of double precision.
 const LANES: usize = 8;
 
-/// The points of a surface that have a visible partner, and that partner.
-#[derive(Debug, Default)]
-pub(super) struct Partners {
-    /// The points' indices in the surface.
-    pub(super) point: Vec<u32>,
-    /// Their partners' indices.
-    pub(super) index: Vec<u32>,
-    /// d in the surface's unit.
-    pub(super) distance: Vec<f64>,
-    /// ξ in radians.
-    pub(super) angle_rad: Vec<f64>,
+/// What is made of the points of a surface that have a visible partner, and of that partner.
+pub(super) trait Take {
+    /// Takes the next ones, all slices as long: the points' indices in the surface, their partners'
+    /// indices, d in the surface's unit, and ξ in radians.
+    fn take(&mut self, points: &[u32], partners: &[u32], distances: &[f64], angles_rad: &[f64]);
 }
 
 /// A surface's points and normals in an order in which each point lies close to the one before it,
@@ -53,9 +48,16 @@ impl<'a> Ordered<'a> {
         })
     }
 
-    /// The partners of the points of a range in this order.
-    pub(super) fn partners(&self, range: Range<usize>, plane: &Plane, viewpoint: DVec3) -> Partners {
+    /// The partners of the points of a range in this order, into `taker`.
+    pub(super) fn partners<T: Take>(
+        &self,
+        range: Range<usize>,
+        plane: &Plane,
+        viewpoint: DVec3,
+        taker: T,
+    ) -> T {
         FindPartners {
+            taker,
             neighbors: self.neighbors,
             order: &self.neighbors.order()[range.clone()],
             points: self.points.each_ref().map(|of| &of[range.clone()]),
@@ -69,20 +71,25 @@ impl<'a> Ordered<'a> {
 }
 
 /// The partners of the points of a range in the order of the surface's neighbors, for a single plane:
-/// nothing is kept of the points beside the range. `None` for more points than can be indexed.
-pub(super) fn partners_once(
+/// nothing is kept of the points beside the range. Nothing is found where there are more points than
+/// can be indexed.
+pub(super) fn partners_once<T: Take>(
     surface: &Surface,
     range: Range<usize>,
     plane: &Plane,
     viewpoint: DVec3,
-) -> Option<Partners> {
-    let neighbors = surface.neighbors()?;
+    taker: T,
+) -> T {
+    let Some(neighbors) = surface.neighbors() else {
+        return taker;
+    };
     let order = &neighbors.order()[range];
     let (points, normals) = (
         columns(surface.points(), order),
         columns(surface.normals(), order),
     );
-    let found = FindPartners {
+    FindPartners {
+        taker,
         neighbors,
         order,
         points: points.each_ref().map(Vec::as_slice),
@@ -90,8 +97,8 @@ pub(super) fn partners_once(
         normals_at: NormalsAt::Points(surface.normals()),
         plane,
         viewpoint,
-    };
-    Some(found.find())
+    }
+    .find()
 }
 
 fn columns(of: &[DVec3], order: &[u32]) -> [Vec<f64>; 3] {
@@ -107,7 +114,8 @@ enum NormalsAt<'a> {
     Points(&'a [DVec3]),
 }
 
-struct FindPartners<'a> {
+struct FindPartners<'a, T> {
+    taker: T,
     neighbors: &'a Neighbors,
     /// The points' indices, and then the points and normals themselves.
     order: &'a [u32],
@@ -118,24 +126,34 @@ struct FindPartners<'a> {
     viewpoint: DVec3,
 }
 
-impl FindPartners<'_> {
+/// Points with a visible partner that wait until they are a block.
+struct Waiting {
+    count: usize,
+    point: [u32; BLOCK + LANES],
+    reflected: [[f64; BLOCK + LANES]; 3],
+    normals: [[f64; BLOCK + LANES]; 3],
+}
+
+impl<T: Take> FindPartners<'_, T> {
     /// By the widest vector instructions that this machine has. They round like all others.
-    fn find(self) -> Partners {
+    fn find(self) -> T {
         pulp::Arch::new().dispatch(self)
     }
 }
 
-impl pulp::NullaryFnOnce for FindPartners<'_> {
-    type Output = Partners;
+impl<T: Take> pulp::WithSimd for FindPartners<'_, T> {
+    type Output = T;
 
     #[inline(always)]
-    fn call(self) -> Partners {
-        // Each block of lanes is written whole and then partly written over: no branch a point.
-        let room = self.order.len() + LANES;
-        let mut point = vec![0; room];
-        let mut reflected = [vec![0.0; room], vec![0.0; room], vec![0.0; room]];
-        let mut normals = [vec![0.0; room], vec![0.0; room], vec![0.0; room]];
-        let mut count = 0;
+    fn with_simd<S: Simd>(mut self, simd: S) -> T {
+        let mut together = Together::new(self.neighbors, simd);
+        let mut nearest = Nearest::NONE;
+        let mut waiting = Waiting {
+            count: 0,
+            point: [0; BLOCK + LANES],
+            reflected: [[0.0; BLOCK + LANES]; 3],
+            normals: [[0.0; BLOCK + LANES]; 3],
+        };
         let order = self.order;
         for from in (0..order.len()).step_by(LANES) {
             let lanes = from..(from + LANES).min(order.len());
@@ -148,60 +166,94 @@ impl pulp::NullaryFnOnce for FindPartners<'_> {
             for i in 0..LANES {
                 seen += u32::from(facing[i] > 0.0);
             }
+            let at = waiting.count;
             // Neighbors are mostly seen, or not, together.
             if seen == 0 {
                 continue;
             }
             if seen as usize == LANES && lanes.len() == LANES {
-                point[count..count + LANES].copy_from_slice(&order[lanes]);
+                waiting.point[at..at + LANES].copy_from_slice(&order[lanes]);
                 for e in 0..3 {
-                    reflected[e][count..count + LANES].copy_from_slice(&p[e]);
-                    normals[e][count..count + LANES].copy_from_slice(&n[e]);
+                    waiting.reflected[e][at..at + LANES].copy_from_slice(&p[e]);
+                    waiting.normals[e][at..at + LANES].copy_from_slice(&n[e]);
                 }
-                count += LANES;
-                continue;
-            }
-            for i in 0..lanes.len() {
-                point[count] = order[from + i];
-                for e in 0..3 {
-                    reflected[e][count] = p[e][i];
-                    normals[e][count] = n[e][i];
-                }
-                count += usize::from(facing[i] > 0.0);
-            }
-        }
-        point.truncate(count);
-        let nearest = self
-            .neighbors
-            .nearest_of_columns(reflected.each_ref().map(|column| &column[..count]));
-        let first = self.neighbors.first();
-        let mut found = Partners {
-            point,
-            index: nearest.position.iter().map(|&at| first[at as usize]).collect(),
-            distance: nearest.distance_squared,
-            angle_rad: vec![0.0; count],
-        };
-        for distance in &mut found.distance {
-            *distance = distance.sqrt();
-        }
-        for from in (0..count).step_by(LANES) {
-            let lanes = from..(from + LANES).min(count);
-            let a = gather([&normals[0], &normals[1], &normals[2]], lanes.clone());
-            let mut b = [[0.0; LANES]; 3];
-            for (i, &at) in nearest.position[lanes.clone()].iter().enumerate() {
-                let normal = match self.normals_at {
-                    NormalsAt::Places(normals) => &normals[at as usize],
-                    NormalsAt::Points(normals) => &normals[first[at as usize] as usize],
-                };
-                for e in 0..3 {
-                    b[e][i] = normal[e];
+                waiting.count += LANES;
+            } else {
+                // Each is written, and then perhaps written over: no branch a point.
+                for i in 0..lanes.len() {
+                    waiting.point[waiting.count] = order[from + i];
+                    for e in 0..3 {
+                        waiting.reflected[e][waiting.count] = p[e][i];
+                        waiting.normals[e][waiting.count] = n[e][i];
+                    }
+                    waiting.count += usize::from(facing[i] > 0.0);
                 }
             }
-            let angles = angles_between_directions_rad(&a, &b);
-            found.angle_rad[lanes.clone()].copy_from_slice(&angles[..lanes.len()]);
+            if waiting.count >= BLOCK {
+                self.find_block(&mut together, &mut nearest, &waiting, BLOCK);
+                waiting.point.copy_within(BLOCK.., 0);
+                for e in 0..3 {
+                    waiting.reflected[e].copy_within(BLOCK.., 0);
+                    waiting.normals[e].copy_within(BLOCK.., 0);
+                }
+                waiting.count -= BLOCK;
+            }
         }
-        found
+        if waiting.count > 0 {
+            let size = waiting.count;
+            for e in 0..3 {
+                let last = waiting.reflected[e][size - 1];
+                waiting.reflected[e][size..BLOCK].fill(last);
+            }
+            self.find_block(&mut together, &mut nearest, &waiting, size);
+        }
+        self.taker
     }
+}
+
+impl<T: Take> FindPartners<'_, T> {
+    /// The partners of the first `size` points that wait.
+    #[inline(always)]
+    fn find_block<S: Simd>(
+        &mut self,
+        together: &mut Together<'_, S>,
+        nearest: &mut Nearest,
+        waiting: &Waiting,
+        size: usize,
+    ) {
+        together.answer(&first_block(&waiting.reflected), size, nearest);
+        let first = self.neighbors.first();
+        let (mut partner, mut distance) = ([0; BLOCK], [0.0; BLOCK]);
+        let mut b = [[0.0; BLOCK]; 3];
+        for i in 0..BLOCK {
+            let at = nearest.position[i] as usize;
+            partner[i] = first[at];
+            let normal = match self.normals_at {
+                NormalsAt::Places(normals) => &normals[at],
+                NormalsAt::Points(normals) => &normals[partner[i] as usize],
+            };
+            for e in 0..3 {
+                b[e][i] = normal[e];
+            }
+            distance[i] = nearest.distance_squared[i].sqrt();
+        }
+        let angle_rad = angles_between_directions_rad(&first_block(&waiting.normals), &b);
+        self.taker.take(
+            &waiting.point[..size],
+            &partner[..size],
+            &distance[..size],
+            &angle_rad[..size],
+        );
+    }
+}
+
+#[inline(always)]
+fn first_block(columns: &[[f64; BLOCK + LANES]; 3]) -> [[f64; BLOCK]; 3] {
+    let mut block = [[0.0; BLOCK]; 3];
+    for e in 0..3 {
+        block[e].copy_from_slice(&columns[e][..BLOCK]);
+    }
+    block
 }
 
 type Lanes = [[f64; LANES]; 3];
@@ -219,7 +271,7 @@ fn gather(columns: [&[f64]; 3], lanes: Range<usize>) -> Lanes {
     all
 }
 
-impl FindPartners<'_> {
+impl<T> FindPartners<'_, T> {
     /// Points and normals reflected, and what is positive where the partner is visible: operation
     /// for operation what [`super::has_visible_partner`] does.
     #[inline(always)]

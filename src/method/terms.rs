@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::partners::Ordered;
+use super::partners::{Ordered, Take};
 use super::{CandidateGrid, Surface};
 use crate::geometry::{Cancelled, Plane, Unit, Watch, map_pieces};
 
@@ -82,12 +82,11 @@ pub fn terms_of_planes(
     let partial = map_pieces(planes.len() * pieces_a_plane, 1, watch, |range| {
         let (plane, piece) = (range.start / pieces_a_plane, range.start % pieces_a_plane);
         let range = piece * PIECE..((piece + 1) * PIECE).min(surface.len());
-        let found = ordered.partners(range, &planes[plane], viewpoint);
-        PlaneTerm {
-            partners: found.point.len(),
-            distance_sum_cm: found.distance.iter().map(|d| d * unit.in_cm()).sum(),
-            angle_sum_rad: found.angle_rad.iter().sum(),
-        }
+        let sums = Sums {
+            unit_in_cm: unit.in_cm(),
+            term: PlaneTerm::default(),
+        };
+        ordered.partners(range, &planes[plane], viewpoint, sums).term
     })?;
     let whole = |pieces: &[PlaneTerm]| {
         pieces.iter().fold(PlaneTerm::default(), |sum, piece| PlaneTerm {
@@ -97,4 +96,21 @@ pub fn terms_of_planes(
         })
     };
     Ok(partial.chunks(pieces_a_plane).map(whole).collect())
+}
+
+/// Sums up what is found, point after point.
+struct Sums {
+    unit_in_cm: f64,
+    term: PlaneTerm,
+}
+
+impl Take for Sums {
+    #[inline(always)]
+    fn take(&mut self, points: &[u32], _partners: &[u32], distances: &[f64], angles_rad: &[f64]) {
+        self.term.partners += points.len();
+        for (distance, angle_rad) in distances.iter().zip(angles_rad) {
+            self.term.distance_sum_cm += distance * self.unit_in_cm;
+            self.term.angle_sum_rad += angle_rad;
+        }
+    }
 }

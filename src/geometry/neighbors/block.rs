@@ -11,7 +11,7 @@ use super::boxes::{SLACK, times_plus};
 use super::tree::{LEAF, Tree};
 
 /// Queries in a block: twice what the widest vectors hold of single precision.
-pub(super) const BLOCK: usize = 32;
+pub(crate) const BLOCK: usize = 32;
 
 /// What one number is for each query.
 type Lanes = [f32; BLOCK];
@@ -29,6 +29,7 @@ const PLACE_ROUNDING: f32 = 1.0 / (1 << 19) as f32;
 const SUM_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
 /// The same for what was computed in double precision, in units of (w + 2)².
 const DOUBLE_ROUNDING: f32 = 1.0 / (1u64 << 48) as f32;
+const WIDER: f32 = 1e-4;
 /// More than is lost where products fall below single precision's range.
 const UNDERFLOW: f32 = 1e-37;
 /// Farther away than this many half extents of the points, squares are not trusted.
@@ -70,7 +71,7 @@ pub(super) struct Block {
     /// The queries as seen from there.
     local: [Lanes; 3],
     /// What rounding may add to a distance from a box.
-    slack: Lanes,
+    slack_squared: Lanes,
     /// Squared distances are kept as what they exceed |q|² and the reference by; `own` is both.
     reference: f64,
     own: Lanes,
@@ -99,7 +100,7 @@ impl Block {
             from_center: [0.0; BLOCK],
             radius: 0.0,
             local: [[0.0; BLOCK]; 3],
-            slack: [0.0; BLOCK],
+            slack_squared: [0.0; BLOCK],
             reference: 0.0,
             own: [0.0; BLOCK],
             least: [f32::INFINITY; BLOCK],
@@ -144,7 +145,7 @@ impl Block {
             let size = 1.0 + q[0].abs() + q[1].abs() + q[2].abs();
             let d = [block.local[0][i], block.local[1][i], block.local[2][i]];
             let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-            block.slack[i] = SLACK * size;
+            block.slack_squared[i] = (1.0 + 2.0 / WIDER) * (SLACK * size) * (SLACK * size);
             block.own[i] = squared + rounded_reference;
             block.from_center[i] = squared.sqrt();
             near &= size < FAR;
@@ -234,13 +235,21 @@ impl Block {
     /// Draws the reach in to what was found.
     #[inline(always)]
     pub(super) fn update_reach(&mut self) {
-        let mut from_center = [0.0; BLOCK];
         for i in 0..BLOCK {
             let squared = self.own[i] + (self.least[i] + self.rounding);
             let squared = if squared > 0.0 { squared } else { 0.0 };
-            let reach = squared.sqrt() * (1.0 + SLACK) + self.slack[i];
-            self.reach_squared[i] = reach * reach;
-            from_center[i] = (reach + self.from_center[i]) * (1.0 + SLACK);
+            // (a + b)² is at most (1 + e) a² + (1 + 1/e) b², whatever e: no root is taken.
+            self.reach_squared[i] = squared * (1.0 + WIDER) + self.slack_squared[i];
+        }
+    }
+
+    /// As [`Block::update_reach`], and the reach from the center.
+    #[inline(always)]
+    pub(super) fn update_center_reach(&mut self) {
+        self.update_reach();
+        let mut from_center = [0.0; BLOCK];
+        for i in 0..BLOCK {
+            from_center[i] = (self.reach_squared[i].sqrt() + self.from_center[i]) * (1.0 + SLACK);
         }
         let farthest = fold(from_center, |a, b| if a > b { a } else { b });
         self.center_reach_squared = farthest * farthest;

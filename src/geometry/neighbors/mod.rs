@@ -21,13 +21,14 @@ mod around;
 mod block;
 mod boxes;
 mod places;
+mod together;
 mod tree;
 
 use glam::DVec3;
 use pulp::{Scalar, Simd};
 
-use block::{BLOCK, Block, Double};
 use places::distinct_places;
+pub(crate) use together::{BLOCK, Nearest, Together};
 use tree::{Item, LEAF, Tree};
 
 /// One place in space and the points that lie exactly there.
@@ -173,19 +174,10 @@ impl Neighbors {
     /// them, as points in [`Neighbors::order`] do, are answered several times sooner than one by one:
     /// they walk through the tree together.
     pub fn nearest_of_each(&self, queries: &[DVec3]) -> Vec<Neighbor> {
-        let column = |e: usize| queries.iter().map(|q| q[e]).collect::<Vec<f64>>();
-        let columns = [column(0), column(1), column(2)];
-        let found = self.nearest_of_columns(columns.each_ref().map(Vec::as_slice));
-        let each = found.position.iter().zip(&found.distance_squared);
-        each.map(|(&position, &d)| self.neighbor(position as usize, d))
-            .collect()
-    }
-
-    /// [`Neighbors::nearest_of_each`] of queries that are given coordinate by coordinate, all as many.
-    pub(crate) fn nearest_of_columns(&self, queries: [&[f64]; 3]) -> NearestPlaces {
-        // The widest vector instructions that this machine has. What depends on how they round is only
-        // which leaves are looked into, never an answer.
-        pulp::Arch::new().dispatch(Nearest { index: self, queries })
+        pulp::Arch::new().dispatch(NearestOfEach {
+            index: self,
+            queries,
+        })
     }
 
     /// The lowest index of the points at each position of the tree's order.
@@ -207,122 +199,34 @@ impl Neighbors {
     }
 }
 
-/// How many queries of a block the next one starts from.
-const SEEDS: usize = 3;
-
-/// What is nearest to each of many queries.
-#[derive(Debug, Default)]
-pub(crate) struct NearestPlaces {
-    /// The place's position in the tree's order.
-    pub(crate) position: Vec<u32>,
-    /// Its squared distance, in the square of the points' unit.
-    pub(crate) distance_squared: Vec<f64>,
-}
-
-/// [`Neighbors::nearest_of_columns`] as what can be built once for each kind of vector instructions:
-/// all that it calls in its loops is inlined into it.
-struct NearestOfEach<'a, S> {
-    simd: S,
+/// [`Neighbors::nearest_of_each`] by the widest vector instructions that this machine has.
+struct NearestOfEach<'a> {
     index: &'a Neighbors,
-    queries: [&'a [f64]; 3],
+    queries: &'a [DVec3],
 }
 
-/// The same, before it is known which instructions there are.
-struct Nearest<'a> {
-    index: &'a Neighbors,
-    queries: [&'a [f64]; 3],
-}
-
-impl pulp::WithSimd for Nearest<'_> {
-    type Output = NearestPlaces;
+impl pulp::WithSimd for NearestOfEach<'_> {
+    type Output = Vec<Neighbor>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Self { index, queries } = self;
-        simd.vectorize(NearestOfEach { simd, index, queries })
-    }
-}
-
-impl<S: Simd> pulp::NullaryFnOnce for NearestOfEach<'_, S> {
-    type Output = NearestPlaces;
-
-    #[inline(always)]
-    fn call(self) -> NearestPlaces {
-        let (index, tree) = (self.index, &self.index.tree);
-        let count = self.queries[0].len();
-        let mut found = NearestPlaces {
-            position: vec![0; count],
-            distance_squared: vec![0.0; count],
-        };
-        let mut start = [usize::MAX; SEEDS];
-        let mut block = Block::empty();
-        for from in (0..count).step_by(BLOCK) {
-            let size = BLOCK.min(count - from);
-            let queries = self.block(from, size);
-            let query = |i: usize| DVec3::new(queries[0][i], queries[1][i], queries[2][i]);
-            let positions = &mut found.position[from..from + size];
-            let distances = &mut found.distance_squared[from..from + size];
-            if start[0] == usize::MAX {
-                start = [tree.descend(query(0)); SEEDS];
-            }
-            if !block.begin(tree, &queries, start[0]) {
-                for i in 0..size {
-                    let (distance, position) = index.nearest_from::<S>(tree.descend(query(i)), query(i));
-                    (positions[i], distances[i]) = (position as u32, distance);
-                }
-                continue;
-            }
-            // Where the queries before these found theirs, so that hardly anything else is in reach.
-            for (i, &leaf) in start.iter().enumerate() {
-                if !start[..i].contains(&leaf) {
-                    block.look_into::<S>(tree, leaf);
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<Neighbor> {
+        let mut all = Vec::with_capacity(self.queries.len());
+        let mut together = Together::new(self.index, simd);
+        let mut nearest = Nearest::NONE;
+        for queries in self.queries.chunks(BLOCK) {
+            let mut columns = [[0.0; BLOCK]; 3];
+            for i in 0..BLOCK {
+                let query = queries[i.min(queries.len() - 1)];
+                for e in 0..3 {
+                    columns[e][i] = query[e];
                 }
             }
-            block.update_reach();
-            let mut walk = tree.walk(block.center());
-            while let Some(leaf) = walk.next::<S>(tree, block.center_reach_squared()) {
-                if !start.contains(&leaf)
-                    && block.may_find_in::<S>(tree, leaf)
-                    && block.look_into::<S>(tree, leaf)
-                {
-                    block.update_reach();
-                }
-            }
-            for i in 0..size {
-                let (leaf, surely) = block.found(i);
-                let place = if surely {
-                    block.place(self.simd, i, tree)
-                } else {
-                    None
-                };
-                let (distance, position) = match place {
-                    Some(place) => (tree.distance_squared(leaf, place, query(i)), leaf * LEAF + place),
-                    None => index.nearest_from::<S>(leaf, query(i)),
-                };
-                (positions[i], distances[i]) = (position as u32, distance);
-            }
-            for s in 0..SEEDS {
-                start[s] = block.found(s * (BLOCK - 1) / (SEEDS - 1)).0;
+            together.answer(&columns, queries.len(), &mut nearest);
+            for i in 0..queries.len() {
+                let (position, distance) = (nearest.position[i] as usize, nearest.distance_squared[i]);
+                all.push(self.index.neighbor(position, distance));
             }
         }
-        found
-    }
-}
-
-impl<S> NearestOfEach<'_, S> {
-    /// The queries of a block; a short one is filled up with its last.
-    #[inline(always)]
-    fn block(&self, from: usize, size: usize) -> [Double; 3] {
-        let mut block = [[0.0; BLOCK]; 3];
-        for e in 0..3 {
-            let column = &self.queries[e][from..from + size];
-            if let Ok(whole) = <&Double>::try_from(column) {
-                block[e] = *whole;
-            } else {
-                block[e] = [column[size - 1]; BLOCK];
-                block[e][..size].copy_from_slice(column);
-            }
-        }
-        block
+        all
     }
 }

@@ -148,16 +148,9 @@ impl Tree {
     /// the boxes' frame, and perhaps some more.
     #[inline(always)]
     pub(super) fn walk(&self, from: Vec3) -> Walk {
-        let mut stack = [(0.0, 0u32, 0u32); 12 * WIDTH];
-        stack[0].1 = self.levels.len() as u32 - 1;
-        Walk {
-            from: from.to_array(),
-            stack,
-            height: 1,
-            near: 0,
-            group: 0,
-            distances: [0.0; WIDTH],
-        }
+        let mut walk = Walk::new();
+        walk.begin(self, from);
+        walk
     }
 
     /// A leaf near `q`, down the nearest boxes.
@@ -261,6 +254,27 @@ pub(super) struct Walk {
 }
 
 impl Walk {
+    /// A walk that has ended.
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self {
+            from: [0.0; 3],
+            stack: [(0.0, 0, 0); 12 * WIDTH],
+            height: 0,
+            near: 0,
+            group: 0,
+            distances: [0.0; WIDTH],
+        }
+    }
+
+    /// Begins again, as [`Tree::walk`].
+    #[inline(always)]
+    pub(super) fn begin(&mut self, tree: &Tree, from: Vec3) {
+        self.from = from.to_array();
+        self.stack[0] = (0.0, tree.levels.len() as u32 - 1, 0);
+        (self.height, self.near) = (1, 0);
+    }
+
     /// The next leaf within the root of `reach_squared`, which must not grow from call to call.
     #[inline(always)]
     pub(super) fn next<S: Simd>(&mut self, tree: &Tree, reach_squared: f32) -> Option<usize> {
