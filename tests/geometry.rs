@@ -131,6 +131,26 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
     #[test]
+    fn points_mirrored_together_find_exactly_the_nearest(
+        kind in 0usize..8, seed in 0u64..1000, count in 500usize..1500, offset in prop::sample::select(vec![0.0, 1e4]),
+        away in prop::sample::select(vec![0.0, 0.5, 5.0]),
+    ) {
+        let points = awkward(kind, seed, count, offset);
+        let index = Neighbors::new(&points).unwrap();
+        let random = scattered(seed + 1, 2);
+        let (normal, through) = (random[0].normalize(), random[1] * away + offset);
+        let queries: Vec<DVec3> = (index.order().iter())
+            .map(|&i| points[i as usize])
+            .map(|p| p - 2.0 * (p - through).dot(normal) * normal)
+            .collect();
+        for (query, found) in queries.iter().zip(index.nearest_of_each(&queries)) {
+            let nearest = points.iter().map(|p| p.distance_squared(*query)).fold(f64::INFINITY, f64::min);
+            prop_assert_eq!(found.distance_squared, nearest);
+            prop_assert_eq!(points[found.index].distance_squared(*query), nearest);
+        }
+    }
+
+    #[test]
     fn neighbors_are_the_nearest(seed in 0u64..1000, steps in 1.0..30.0f64, count in 1usize..30) {
         let points = quantized(seed, 200, steps.round());
         let index = Neighbors::new(&points).unwrap();
@@ -303,4 +323,21 @@ fn points_that_are_not_finite_never_enter_a_cloud() {
     ]);
     assert_eq!(cloud.len(), 1);
     assert!(cloud.with_labels(vec![1, 2]).is_err());
+}
+
+#[test]
+fn queries_with_most_points_in_reach_find_the_nearest() {
+    // From about the center of a sphere everything is about as far; from all around, everything may be near.
+    let points: Vec<DVec3> = scattered(1, 6000).iter().map(|p| p.normalize()).collect();
+    let index = Neighbors::new(&points).unwrap();
+    for spread in [0.01, 1.0, 3.0] {
+        let queries: Vec<DVec3> = scattered(2, 64).iter().map(|q| q * spread).collect();
+        for (query, found) in queries.iter().zip(index.nearest_of_each(&queries)) {
+            let nearest = points
+                .iter()
+                .map(|p| p.distance_squared(*query))
+                .fold(f64::INFINITY, f64::min);
+            assert_eq!(found.distance_squared, nearest);
+        }
+    }
 }

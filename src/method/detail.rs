@@ -100,7 +100,7 @@ struct Found {
 }
 
 impl Take for Found {
-    #[inline(always)]
+    #[inline]
     fn take(&mut self, points: &[u32], partners: &[u32], distances: &[f64], angles_rad: &[f64]) {
         for i in 0..points.len() {
             let partner = Partner {

@@ -105,7 +105,7 @@ struct Sums {
 }
 
 impl Take for Sums {
-    #[inline(always)]
+    #[inline]
     fn take(&mut self, points: &[u32], _partners: &[u32], distances: &[f64], angles_rad: &[f64]) {
         self.term.partners += points.len();
         for (distance, angle_rad) in distances.iter().zip(angles_rad) {

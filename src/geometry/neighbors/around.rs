@@ -61,7 +61,7 @@ impl Neighbors {
         let in_frame = self.tree.in_frame(query).as_vec3();
         let reach = self.tree.reach_squared(in_frame, limit);
         let mut walk = self.tree.walk(in_frame);
-        while let Some(leaf) = walk.next::<Scalar>(&self.tree, reach) {
+        while let Some((leaf, _)) = walk.next::<Scalar>(&self.tree, reach) {
             self.collect(leaf, query, limit, found);
         }
         if found.len() > count {

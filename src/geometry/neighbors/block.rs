@@ -7,16 +7,12 @@
 use glam::{DVec3, Vec3};
 use pulp::Simd;
 
-use super::boxes::{SLACK, times_plus};
+use super::boxes::SLACK;
+use super::lanes::{BLOCK, Lanes, Looks};
 use super::tree::{LEAF, Tree};
 
-/// Queries in a block: twice what the widest vectors hold of single precision.
-pub(crate) const BLOCK: usize = 32;
-
-/// What one number is for each query.
-type Lanes = [f32; BLOCK];
-/// The same in double precision.
-pub(super) type Double = [f64; BLOCK];
+/// A coordinate of each query.
+pub(crate) type Column = [f64; BLOCK];
 
 /// What rounding may add to or take off the squared distance from a point of a leaf, in units of
 /// r (w + r), r being the leaf's radius and w at least as far as any query is from its center: some
@@ -29,7 +25,12 @@ const PLACE_ROUNDING: f32 = 1.0 / (1 << 19) as f32;
 const SUM_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
 /// The same for what was computed in double precision, in units of (w + 2)².
 const DOUBLE_ROUNDING: f32 = 1.0 / (1u64 << 48) as f32;
+/// How much wider a squared reach is drawn than it must be, so that no root has to be taken: with e a
+/// little below this, (a + b)² is at most (1 + e) a² + (1 + 1/e) b².
 const WIDER: f32 = 1e-4;
+/// Leaves whose boxes are not much farther from the queries' middle than the queries are from what
+/// they have found are looked into first: most of them hold what is nearest to some query.
+const FIRST: f32 = 1.1;
 /// More than is lost where products fall below single precision's range.
 const UNDERFLOW: f32 = 1e-37;
 /// Farther away than this many half extents of the points, squares are not trusted.
@@ -70,7 +71,7 @@ pub(super) struct Block {
     radius: f32,
     /// The queries as seen from there.
     local: [Lanes; 3],
-    /// What rounding may add to a distance from a box.
+    /// What rounding may add to a distance from a box, as what it adds to a squared reach.
     slack_squared: Lanes,
     /// Squared distances are kept as what they exceed |q|² and the reference by; `own` is both.
     reference: f64,
@@ -81,13 +82,20 @@ pub(super) struct Block {
     /// What rounding may have changed in any of them.
     rounding: f32,
     /// Which of `looked` has the nearest point.
-    look: [u32; BLOCK],
+    look: Looks,
     /// The leaves it has looked into.
     looked: Vec<Looked>,
     /// How far a box may be and hold something nearer, squared.
     reach_squared: Lanes,
-    /// How far it may be from the center and hold something nearer to any query, squared.
+    /// A bound on how far it may be from the center and hold something nearer to a query, squared:
+    /// `slope` times the query's squared reach and `more`, touching what it bounds where the query's
+    /// reach was when the block began to walk.
+    slope: Lanes,
+    more: Lanes,
+    /// The greatest of these.
     center_reach_squared: f32,
+    /// How far it may be from the center and be looked into first, squared.
+    first_squared: f32,
 }
 
 impl Block {
@@ -95,21 +103,24 @@ impl Block {
     #[inline(always)]
     pub(super) fn empty() -> Self {
         Self {
-            in_frame: [[0.0; BLOCK]; 3],
+            in_frame: [Lanes::ZERO; 3],
             center: [0.0; 3],
-            from_center: [0.0; BLOCK],
+            from_center: Lanes::ZERO,
             radius: 0.0,
-            local: [[0.0; BLOCK]; 3],
-            slack_squared: [0.0; BLOCK],
+            local: [Lanes::ZERO; 3],
+            slack_squared: Lanes::ZERO,
             reference: 0.0,
-            own: [0.0; BLOCK],
-            least: [f32::INFINITY; BLOCK],
-            second: [f32::INFINITY; BLOCK],
+            own: Lanes::ZERO,
+            least: Lanes::INFINITY,
+            second: Lanes::INFINITY,
             rounding: 0.0,
-            look: [0; BLOCK],
+            look: Looks::FIRST,
             looked: Vec::with_capacity(64),
-            reach_squared: [f32::INFINITY; BLOCK],
+            reach_squared: Lanes::INFINITY,
+            slope: Lanes::ZERO,
+            more: Lanes::ZERO,
             center_reach_squared: f32::INFINITY,
+            first_squared: 0.0,
         }
     }
 
@@ -117,99 +128,107 @@ impl Block {
     /// others are compared with. `false` where the queries are so far away that squares of distances
     /// mean little.
     #[inline(always)]
-    pub(super) fn begin(&mut self, tree: &Tree, queries: &[Double; 3], leaf: usize) -> bool {
-        let block = self;
-        block.least = [f32::INFINITY; BLOCK];
-        block.second = [f32::INFINITY; BLOCK];
-        block.rounding = 0.0;
-        block.look = [0; BLOCK];
-        block.looked.clear();
-        block.reference = 0.0;
+    pub(super) fn begin<S: Simd>(
+        &mut self,
+        simd: S,
+        tree: &Tree,
+        queries: &[Column; 3],
+        leaf: usize,
+    ) -> bool {
+        self.least = Lanes::INFINITY;
+        self.second = Lanes::INFINITY;
+        self.rounding = 0.0;
+        self.look = Looks::FIRST;
+        self.looked.clear();
+        self.reference = 0.0;
         for e in 0..3 {
-            let mut all = [0.0; BLOCK];
+            let (mut all, mut in_frame, mut local) = ([0.0; BLOCK], Lanes::ZERO, Lanes::ZERO);
             for i in 0..BLOCK {
                 all[i] = tree.in_frame_along(e, queries[e][i]);
-                block.in_frame[e][i] = all[i] as f32;
+                in_frame.0[i] = all[i] as f32;
             }
-            block.center[e] = f64::from(fold(block.in_frame[e], |a, b| a + b) / BLOCK as f32);
+            let center = f64::from(in_frame.sum(simd) / BLOCK as f32);
             for i in 0..BLOCK {
-                block.local[e][i] = (all[i] - block.center[e]) as f32;
+                local.0[i] = (all[i] - center) as f32;
             }
-            let c = tree.leaf_center(leaf)[e] - block.center[e];
-            block.reference += c * c;
+            let c = tree.leaf_center(leaf)[e] - center;
+            self.reference += c * c;
+            (self.in_frame[e], self.local[e], self.center[e]) = (in_frame, local, center);
         }
-        let rounded_reference = block.reference as f32;
-        let mut near = true;
+        let reference = self.reference as f32;
+        let (mut sizes, mut from_center) = (Lanes::ZERO, Lanes::ZERO);
         for i in 0..BLOCK {
-            let q = [block.in_frame[0][i], block.in_frame[1][i], block.in_frame[2][i]];
+            let q = [
+                self.in_frame[0].0[i],
+                self.in_frame[1].0[i],
+                self.in_frame[2].0[i],
+            ];
             let size = 1.0 + q[0].abs() + q[1].abs() + q[2].abs();
-            let d = [block.local[0][i], block.local[1][i], block.local[2][i]];
+            let d = [self.local[0].0[i], self.local[1].0[i], self.local[2].0[i]];
             let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-            block.slack_squared[i] = (1.0 + 2.0 / WIDER) * (SLACK * size) * (SLACK * size);
-            block.own[i] = squared + rounded_reference;
-            block.from_center[i] = squared.sqrt();
-            near &= size < FAR;
+            let slack = SLACK * size;
+            sizes.0[i] = size;
+            self.slack_squared.0[i] = (1.0 + 2.0 / WIDER) * slack * slack;
+            self.own.0[i] = squared + reference;
+            from_center.0[i] = squared.sqrt();
         }
-        block.radius = fold(block.from_center, |a, b| if a > b { a } else { b }) * (1.0 + SLACK);
-        near
+        self.radius = from_center.greatest(simd) * (1.0 + SLACK);
+        self.from_center = from_center;
+        sizes.greatest(simd) < FAR
     }
 
-    /// Looks for nearer points in a leaf, in which it must not have looked before. Says whether there
-    /// were any.
+    /// Looks for nearer points in a leaf, in which it must not have looked before.
     #[inline(always)]
-    pub(super) fn look_into<S: Simd>(&mut self, tree: &Tree, leaf: usize) -> bool {
+    pub(super) fn look_into<S: Simd>(&mut self, simd: S, tree: &Tree, leaf: usize) {
         let center = tree.leaf_center(leaf);
         let near = tree.leaf_near(leaf);
         let exact: [f64; 3] = std::array::from_fn(|e| center[e] - self.center[e]);
         let squared = exact[0] * exact[0] + exact[1] * exact[1] + exact[2] * exact[2];
         let farther = (squared - self.reference) as f32;
         let c = exact.map(|c| c as f32);
-        let look = self.looked.len() as u32;
-        let minus_twice = c.map(|c| -2.0 * c);
-        let mut w = [[0.0; BLOCK]; 3];
-        let mut base = [0.0; BLOCK];
-        for i in 0..BLOCK {
-            let q = [self.local[0][i], self.local[1][i], self.local[2][i]];
-            let b = times_plus::<S>(q[0], minus_twice[0], farther);
-            let b = times_plus::<S>(q[1], minus_twice[1], b);
-            base[i] = times_plus::<S>(q[2], minus_twice[2], b);
-            w[0][i] = q[0] - c[0];
-            w[1][i] = q[1] - c[1];
-            w[2][i] = q[2] - c[2];
-        }
-        let mut least = [f32::INFINITY; BLOCK];
-        for j in (0..LEAF).step_by(2) {
-            // Two points at a time, since each comparison with the least waits for the one before it.
-            let ([x, y, z], squared) = (&near.minus_twice, &near.squared);
-            for i in 0..BLOCK {
-                let more = times_plus::<S>(w[0][i], x[j], squared[j]);
-                let more = times_plus::<S>(w[1][i], y[j], more);
-                let more = times_plus::<S>(w[2][i], z[j], more);
-                let k = j + 1;
-                let other = times_plus::<S>(w[0][i], x[k], squared[k]);
-                let other = times_plus::<S>(w[1][i], y[k], other);
-                let other = times_plus::<S>(w[2][i], z[k], other);
-                let more = if other < more { other } else { more };
-                least[i] = if more < least[i] { more } else { least[i] };
+        let look = simd.splat_u32s(self.looked.len() as u32);
+        let (x, y, z) = (&near.minus_twice[0], &near.minus_twice[1], &near.minus_twice[2]);
+        let local = [
+            self.local[0].parts::<S>(),
+            self.local[1].parts::<S>(),
+            self.local[2].parts::<S>(),
+        ];
+        let looks = S::as_mut_simd_u32s(&mut self.look.0).0;
+        let (leasts, seconds) = (self.least.parts_mut::<S>(), self.second.parts_mut::<S>());
+        for from in (0..leasts.len()).step_by(2) {
+            // Two vectors of queries at a time, since each comparison waits for the one before it.
+            let mut w = [[simd.splat_f32s(0.0); 3]; 2];
+            let mut base = [simd.splat_f32s(farther); 2];
+            let mut least = [simd.splat_f32s(f32::INFINITY); 2];
+            for k in 0..2 {
+                for e in 0..3 {
+                    let q = local[e][from + k];
+                    base[k] = simd.mul_add_e_f32s(q, simd.splat_f32s(-2.0 * c[e]), base[k]);
+                    w[k][e] = simd.sub_f32s(q, simd.splat_f32s(c[e]));
+                }
             }
-        }
-        let mut nearer = false;
-        for i in 0..BLOCK {
-            let squared = base[i] + least[i];
-            let before = self.least[i];
-            let (low, high) = if squared < before {
-                (squared, before)
-            } else {
-                (before, squared)
-            };
-            self.look[i] = if squared < before { look } else { self.look[i] };
-            nearer |= squared < before;
-            self.least[i] = low;
-            self.second[i] = if high < self.second[i] {
-                high
-            } else {
-                self.second[i]
-            };
+            for j in 0..LEAF {
+                let p = [
+                    simd.splat_f32s(x[j]),
+                    simd.splat_f32s(y[j]),
+                    simd.splat_f32s(z[j]),
+                ];
+                let squared = simd.splat_f32s(near.squared[j]);
+                for k in 0..2 {
+                    let more = simd.mul_add_e_f32s(w[k][0], p[0], squared);
+                    let more = simd.mul_add_e_f32s(w[k][1], p[1], more);
+                    let more = simd.mul_add_e_f32s(w[k][2], p[2], more);
+                    least[k] = simd.min_f32s(more, least[k]);
+                }
+            }
+            for k in 0..2 {
+                let (squared, before) = (simd.add_f32s(base[k], least[k]), leasts[from + k]);
+                let nearer = simd.less_than_f32s(squared, before);
+                looks[from + k] = simd.select_u32s(nearer, look, looks[from + k]);
+                leasts[from + k] = simd.min_f32s(squared, before);
+                let farther = simd.max_f32s(squared, before);
+                seconds[from + k] = simd.min_f32s(farther, seconds[from + k]);
+            }
         }
         // For all queries at once, so as for the farthest of them.
         let distance = (squared as f32).sqrt() * (1.0 + SLACK);
@@ -229,30 +248,43 @@ impl Block {
             center: c,
             ties: 2.0 * (within + UNDERFLOW),
         });
-        nearer
+    }
+
+    /// The reach from what was found in the first leaf.
+    #[inline(always)]
+    pub(super) fn begin_reach<S: Simd>(&mut self, simd: S) {
+        self.update_reach(simd);
+        for i in 0..BLOCK {
+            let reach = self.reach_squared.0[i].sqrt();
+            let farther = reach + self.from_center.0[i] * (1.0 + SLACK);
+            // Never through zero, since slack is part of every reach.
+            self.slope.0[i] = farther / reach;
+            self.more.0[i] = farther * (farther - reach);
+        }
+        self.update_reach(simd);
     }
 
     /// Draws the reach in to what was found.
     #[inline(always)]
-    pub(super) fn update_reach(&mut self) {
-        for i in 0..BLOCK {
-            let squared = self.own[i] + (self.least[i] + self.rounding);
-            let squared = if squared > 0.0 { squared } else { 0.0 };
-            // (a + b)² is at most (1 + e) a² + (1 + 1/e) b², whatever e: no root is taken.
-            self.reach_squared[i] = squared * (1.0 + WIDER) + self.slack_squared[i];
+    pub(super) fn update_reach<S: Simd>(&mut self, simd: S) {
+        let (own, least) = (self.own.parts::<S>(), self.least.parts::<S>());
+        let (slope, more) = (self.slope.parts::<S>(), self.more.parts::<S>());
+        let slack_squared = self.slack_squared.parts::<S>();
+        let reach_squared = self.reach_squared.parts_mut::<S>();
+        let rounding = simd.splat_f32s(self.rounding);
+        let wider = simd.splat_f32s(1.0 + WIDER);
+        let zero = simd.splat_f32s(0.0);
+        let (mut farthest, mut sum) = (zero, zero);
+        for part in 0..own.len() {
+            let squared = simd.add_f32s(own[part], simd.add_f32s(least[part], rounding));
+            let squared = simd.max_f32s(squared, zero);
+            let reach = simd.mul_add_e_f32s(squared, wider, slack_squared[part]);
+            reach_squared[part] = reach;
+            farthest = simd.max_f32s(farthest, simd.mul_add_e_f32s(reach, slope[part], more[part]));
+            sum = simd.add_f32s(sum, reach);
         }
-    }
-
-    /// As [`Block::update_reach`], and the reach from the center.
-    #[inline(always)]
-    pub(super) fn update_center_reach(&mut self) {
-        self.update_reach();
-        let mut from_center = [0.0; BLOCK];
-        for i in 0..BLOCK {
-            from_center[i] = (self.reach_squared[i].sqrt() + self.from_center[i]) * (1.0 + SLACK);
-        }
-        let farthest = fold(from_center, |a, b| if a > b { a } else { b });
-        self.center_reach_squared = farthest * farthest;
+        self.center_reach_squared = simd.reduce_max_f32s(farthest) * (1.0 + WIDER);
+        self.first_squared = simd.reduce_sum_f32s(sum) * (FIRST / BLOCK as f32);
     }
 
     /// A point that the queries lie around, in the tree's frame.
@@ -268,20 +300,26 @@ impl Block {
         self.center_reach_squared
     }
 
+    /// How far from the center a box may be and be looked into before others, squared.
+    #[inline(always)]
+    pub(super) fn first_squared(&self) -> f32 {
+        self.first_squared
+    }
+
     /// Whether a box may hold something nearer to any query.
     #[inline(always)]
     pub(super) fn may_find_in<S: Simd>(&self, tree: &Tree, leaf: usize) -> bool {
-        tree.any_within::<S, BLOCK>(leaf, &self.in_frame, &self.reach_squared)
+        tree.any_within::<S>(leaf, &self.in_frame, &self.reach_squared)
     }
 
     /// Which point of the leaf found is the query's nearest, where single precision tells them apart.
     #[inline(always)]
     pub(super) fn place<S: Simd>(&self, simd: S, i: usize, tree: &Tree) -> Option<usize> {
-        let looked = &self.looked[self.look[i] as usize];
+        let looked = &self.looked[self.look.0[i] as usize];
         let near = tree.leaf_near(looked.leaf as usize);
         let mut w = [0.0; 3];
         for e in 0..3 {
-            w[e] = self.local[e][i] - looked.center[e];
+            w[e] = self.local[e].0[i] - looked.center[e];
         }
         // No closures: they would not be built for these instructions.
         let (x, _) = S::as_simd_f32s(&near.minus_twice[0]);
@@ -311,20 +349,7 @@ impl Block {
     /// The leaf in which the query's nearest point seems to be, and whether it surely is.
     #[inline(always)]
     pub(super) fn found(&self, i: usize) -> (usize, bool) {
-        let surely = self.second[i] - self.least[i] > 2.0 * self.rounding;
-        (self.looked[self.look[i] as usize].leaf as usize, surely)
+        let surely = self.second.0[i] - self.least.0[i] > 2.0 * self.rounding;
+        (self.looked[self.look.0[i] as usize].leaf as usize, surely)
     }
-}
-
-/// Halves lanes again and again, as vectors can.
-#[inline(always)]
-fn fold(mut lanes: Lanes, op: fn(f32, f32) -> f32) -> f32 {
-    let mut half = BLOCK / 2;
-    while half > 0 {
-        for i in 0..half {
-            lanes[i] = op(lanes[i], lanes[i + half]);
-        }
-        half /= 2;
-    }
-    lanes[0]
 }

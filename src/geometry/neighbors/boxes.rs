@@ -7,7 +7,8 @@
 use glam::DVec3;
 use pulp::Simd;
 
-use crate::geometry::eigen::symmetric_eigen;
+use super::lanes::{BLOCK, Lanes};
+use crate::geometry::eigen::about_eigenvectors;
 
 /// Boxes that are tested together.
 pub(super) const WIDTH: usize = 16;
@@ -30,6 +31,8 @@ pub(super) fn times_plus<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
 
 /// Up to [`WIDTH`] boxes, each number of all of them side by side.
 #[derive(Debug, Clone)]
+// No vector straddles two lines of the cache.
+#[repr(C, align(64))]
 pub(super) struct Boxes {
     axes: [[[f32; WIDTH]; 3]; 3],
     /// The boxes' centers along their axes, negative.
@@ -45,6 +48,24 @@ impl Boxes {
         half: [[f32::NEG_INFINITY; WIDTH]; 3],
     };
 
+    /// All boxes of `parts`, of which each but the last has `size`.
+    pub(super) fn together(parts: &[Self], size: usize) -> Self {
+        let mut all = Self::NONE;
+        for (part, boxes) in parts.iter().enumerate() {
+            for lane in 0..size {
+                let to = part * size + lane;
+                for e in 0..3 {
+                    for f in 0..3 {
+                        all.axes[e][f][to] = boxes.axes[e][f][lane];
+                    }
+                    all.offset[e][to] = boxes.offset[e][lane];
+                    all.half[e][to] = boxes.half[e][lane];
+                }
+            }
+        }
+        all
+    }
+
     /// Puts the box around `points` (in the boxes' frame) into `lane`.
     pub(super) fn set(&mut self, lane: usize, points: impl ExactSizeIterator<Item = DVec3> + Clone) {
         let count = points.len() as f64;
@@ -59,7 +80,7 @@ impl Boxes {
             m[4] += q.y * q.z;
             m[5] += q.z * q.z;
         }
-        let (_, axes) = symmetric_eigen(m);
+        let axes = about_eigenvectors(m);
         // What is stored is what the extents are measured along.
         let axes = axes.map(DVec3::as_vec3);
         let along = |p: DVec3| DVec3::from_array(axes.map(|a| a.as_dvec3().dot(p)));
@@ -100,28 +121,29 @@ impl Boxes {
 
     /// Whether any query lies within its reach of the box in `lane`; NaN counts as within.
     #[inline(always)]
-    pub(super) fn any_within<S: Simd, const N: usize>(
+    pub(super) fn any_within<S: Simd>(
         &self,
         lane: usize,
-        queries: &[[f32; N]; 3],
-        reach_squared: &[f32; N],
+        queries: &[Lanes; 3],
+        reach_squared: &Lanes,
     ) -> bool {
-        let mut sum = [0.0; N];
+        let [x, y, z] = queries;
+        let mut sum = [0.0; BLOCK];
         for e in 0..3 {
             let [ax, ay, az]: [f32; 3] = std::array::from_fn(|f| self.axes[e][f][lane]);
             let (offset, half) = (self.offset[e][lane], self.half[e][lane]);
-            for i in 0..N {
-                let along = times_plus::<S>(ax, queries[0][i], offset);
-                let along = times_plus::<S>(ay, queries[1][i], along);
-                let along = times_plus::<S>(az, queries[2][i], along);
+            for i in 0..BLOCK {
+                let along = times_plus::<S>(ax, x.0[i], offset);
+                let along = times_plus::<S>(ay, y.0[i], along);
+                let along = times_plus::<S>(az, z.0[i], along);
                 let outside = along.abs() - half;
                 let outside = if outside > 0.0 { outside } else { 0.0 };
                 sum[i] = times_plus::<S>(outside, outside, sum[i]);
             }
         }
         let mut beyond = true;
-        for i in 0..N {
-            beyond &= sum[i] > reach_squared[i];
+        for i in 0..BLOCK {
+            beyond &= sum[i] > reach_squared.0[i];
         }
         !beyond
     }

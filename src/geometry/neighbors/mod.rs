@@ -20,16 +20,20 @@
 mod around;
 mod block;
 mod boxes;
+mod lanes;
+mod order;
 mod places;
 mod together;
 mod tree;
+mod walk;
 
 use glam::DVec3;
 use pulp::{Scalar, Simd};
 
+pub(crate) use lanes::BLOCK;
 use places::distinct_places;
-pub(crate) use together::{BLOCK, Nearest, Together};
-use tree::{Item, LEAF, Tree};
+pub(crate) use together::{Nearest, Together};
+use tree::{LEAF, Tree};
 
 /// One place in space and the points that lie exactly there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,21 +75,24 @@ impl Neighbors {
         if points.is_empty() || u32::try_from(points.len()).is_err() {
             return None;
         }
-        let (firsts, place_of) = distinct_places(points);
-        let mut items: Vec<Item> = firsts
-            .iter()
-            .enumerate()
-            .map(|(place, &first)| Item {
-                at: points[first as usize],
-                id: place as u32,
-            })
-            .collect();
-        let tree = Tree::new(&mut items);
-        let mut position = vec![0; items.len()];
-        for (i, item) in items.iter().enumerate() {
-            position[item.id as usize] = i as u32;
+        let (mut first, place_of) = distinct_places(points);
+        if first.len() == points.len() {
+            let (tree, order) = Tree::new(points);
+            let start = (0..=points.len() as u32).collect();
+            return Some(Self {
+                tree,
+                first: order.clone(),
+                start,
+                order,
+            });
         }
-        let mut start = vec![0; items.len() + 1];
+        let places: Vec<DVec3> = first.iter().map(|&i| points[i as usize]).collect();
+        let (tree, places_in_order) = Tree::new(&places);
+        let mut position = vec![0; places.len()];
+        for (i, &place) in places_in_order.iter().enumerate() {
+            position[place as usize] = i as u32;
+        }
+        let mut start = vec![0; places.len() + 1];
         for &place in &place_of {
             start[position[place as usize] as usize + 1] += 1;
         }
@@ -99,9 +106,13 @@ impl Neighbors {
             order[*slot as usize] = i as u32;
             *slot += 1;
         }
+        first = places_in_order
+            .iter()
+            .map(|&place| first[place as usize])
+            .collect();
         Some(Self {
             tree,
-            first: items.iter().map(|item| firsts[item.id as usize]).collect(),
+            first,
             start,
             order,
         })
@@ -133,7 +144,7 @@ impl Neighbors {
         let in_frame = self.tree.in_frame(query).as_vec3();
         let mut reach = self.tree.reach_squared(in_frame, best.0);
         let mut walk = self.tree.walk(in_frame);
-        while let Some(leaf) = walk.next::<S>(&self.tree, reach) {
+        while let Some((leaf, _)) = walk.next::<S>(&self.tree, reach) {
             if leaf != start {
                 self.look_into(leaf, query, &mut best);
                 reach = self.tree.reach_squared(in_frame, best.0);
@@ -174,10 +185,7 @@ impl Neighbors {
     /// them, as points in [`Neighbors::order`] do, are answered several times sooner than one by one:
     /// they walk through the tree together.
     pub fn nearest_of_each(&self, queries: &[DVec3]) -> Vec<Neighbor> {
-        pulp::Arch::new().dispatch(NearestOfEach {
-            index: self,
-            queries,
-        })
+        pulp::Arch::new().dispatch(NearestOfEach { index: self, queries })
     }
 
     /// The lowest index of the points at each position of the tree's order.

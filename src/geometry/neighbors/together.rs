@@ -4,12 +4,10 @@ use glam::DVec3;
 use pulp::Simd;
 
 use super::Neighbors;
-pub(crate) use super::block::BLOCK;
-use super::block::{Block, Double};
-use super::tree::{LEAF, Walk};
-
-/// How many queries of a block the next one starts from.
-const SEEDS: usize = 3;
+use super::block::{Block, Column};
+use super::lanes::BLOCK;
+use super::tree::LEAF;
+use super::walk::Walk;
 
 /// What is nearest to each query of a block.
 #[derive(Debug)]
@@ -17,7 +15,7 @@ pub(crate) struct Nearest {
     /// The places' positions in the tree's order.
     pub(crate) position: [u32; BLOCK],
     /// Their squared distances, in the square of the points' unit.
-    pub(crate) distance_squared: [f64; BLOCK],
+    pub(crate) distance_squared: Column,
 }
 
 impl Nearest {
@@ -28,6 +26,9 @@ impl Nearest {
     };
 }
 
+/// Leaves that can wait while others are looked into. Even surfaces leave some 20 waiting.
+const WAITING: usize = 64;
+
 /// Answers blocks of queries, each from where the block before it found its.
 ///
 /// To be used where code is built for the vector instructions `S`: all that it calls in its loops is
@@ -35,10 +36,13 @@ impl Nearest {
 pub(crate) struct Together<'a, S> {
     simd: S,
     index: &'a Neighbors,
-    /// Leaves in which queries of the last block found their nearest.
-    start: [usize; SEEDS],
+    /// The leaf in which the last query found its nearest.
+    start: Option<usize>,
     block: Block,
     walk: Walk,
+    /// Leaves that may be out of reach by the time all others have been looked into, and how far they
+    /// are from the queries' middle, squared.
+    waiting: [(f32, u32); WAITING],
 }
 
 impl<'a, S: Simd> Together<'a, S> {
@@ -47,58 +51,65 @@ impl<'a, S: Simd> Together<'a, S> {
         Self {
             simd,
             index,
-            start: [usize::MAX; SEEDS],
+            start: None,
             block: Block::empty(),
             walk: Walk::new(),
+            waiting: [(0.0, 0); WAITING],
         }
     }
 
     /// The nearest places of the first `size` of `queries`, coordinate by coordinate; those left over
     /// are to be copies of one of them.
     #[inline(always)]
-    pub(crate) fn answer(&mut self, queries: &[Double; 3], size: usize, nearest: &mut Nearest) {
-        let (index, tree) = (self.index, &self.index.tree);
-        let (start, block, walk) = (&mut self.start, &mut self.block, &mut self.walk);
+    pub(crate) fn answer(&mut self, queries: &[Column; 3], size: usize, nearest: &mut Nearest) {
+        let (simd, index, tree) = (self.simd, self.index, &self.index.tree);
+        let (block, walk, waiting) = (&mut self.block, &mut self.walk, &mut self.waiting);
         let query = |i: usize| DVec3::new(queries[0][i], queries[1][i], queries[2][i]);
-        if start[0] == usize::MAX {
-            *start = [tree.descend(query(0)); SEEDS];
-        }
-        if !block.begin(tree, queries, start[0]) {
+        let start = match self.start {
+            Some(leaf) => leaf,
+            None => tree.descend(query(0)),
+        };
+        if !block.begin(simd, tree, queries, start) {
             for i in 0..size {
                 let (distance, position) = index.nearest_from::<S>(tree.descend(query(i)), query(i));
                 (nearest.position[i], nearest.distance_squared[i]) = (position as u32, distance);
             }
             return;
         }
-        // Where the queries before these found theirs, so that hardly anything else is in reach.
-        for (i, &leaf) in start.iter().enumerate() {
-            if !start[..i].contains(&leaf) {
-                block.look_into::<S>(tree, leaf);
+        // Where the query before these found its, so that not much else is in reach.
+        block.look_into(simd, tree, start);
+        block.begin_reach(simd);
+        walk.begin(tree, block.center());
+        let mut count = 0;
+        while let Some((leaf, distance)) = walk.next::<S>(tree, block.center_reach_squared()) {
+            if leaf == start {
+                continue;
+            }
+            let first = distance <= block.first_squared();
+            if !first && count < WAITING {
+                waiting[count] = (distance, leaf as u32);
+                count += 1;
+            } else if first || block.may_find_in::<S>(tree, leaf) {
+                block.look_into(simd, tree, leaf);
+                block.update_reach(simd);
             }
         }
-        block.update_center_reach();
-        walk.begin(tree, block.center());
-        while let Some(leaf) = walk.next::<S>(tree, block.center_reach_squared()) {
-            if !start.contains(&leaf) && block.may_find_in::<S>(tree, leaf) && block.look_into::<S>(tree, leaf)
-            {
-                block.update_reach();
+        for &(distance, leaf) in &waiting[..count] {
+            let leaf = leaf as usize;
+            if !(distance > block.center_reach_squared()) && block.may_find_in::<S>(tree, leaf) {
+                block.look_into(simd, tree, leaf);
+                block.update_reach(simd);
             }
         }
         for i in 0..size {
             let (leaf, surely) = block.found(i);
-            let place = if surely {
-                block.place(self.simd, i, tree)
-            } else {
-                None
-            };
+            let place = if surely { block.place(simd, i, tree) } else { None };
             let (distance, position) = match place {
                 Some(place) => (tree.distance_squared(leaf, place, query(i)), leaf * LEAF + place),
                 None => index.nearest_from::<S>(leaf, query(i)),
             };
             (nearest.position[i], nearest.distance_squared[i]) = (position as u32, distance);
         }
-        for s in 0..SEEDS {
-            start[s] = block.found(s * (BLOCK - 1) / (SEEDS - 1)).0;
-        }
+        self.start = Some(block.found(BLOCK - 1).0);
     }
 }

@@ -1,30 +1,27 @@
 //! A balanced tree of boxes over leaves of points, laid out by position alone: leaf `i` holds the
 //! points from `i * LEAF`, and a node of a level the sixteen nodes below it.
 
+use std::ops::Range;
+
 use glam::{DVec3, Vec3};
 use pulp::{Scalar, Simd};
 
 use super::boxes::{Boxes, SLACK, WIDTH};
+use super::lanes::Lanes;
+use super::order::in_order;
+use super::walk::Walk;
 use crate::geometry::parallel::{join, map_pieces};
 
 /// Points in a leaf.
-pub(super) const LEAF: usize = 16;
-
-/// Points below which sorting is not worth another core.
-const ALONE: usize = 1024;
-
-/// A point and its number before sorting.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Item {
-    pub(super) at: DVec3,
-    pub(super) id: u32,
-}
+pub(super) const LEAF: usize = 32;
 
 /// Points of a leaf, coordinate by coordinate; what is left over lies at infinity.
 type Leaf = [[f64; LEAF]; 3];
 
 /// The same points in single precision, seen from the leaf's center, in the tree's frame.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
+// No vector straddles two lines of the cache.
+#[repr(C, align(64))]
 pub(super) struct Near {
     /// -2 times their coordinates.
     pub(super) minus_twice: [[f32; LEAF]; 3],
@@ -37,17 +34,21 @@ pub(super) struct Near {
 }
 
 impl Near {
-    fn new(chunk: &[Item], in_frame: impl Fn(DVec3) -> DVec3) -> Self {
-        let (low, high) = extent(chunk);
-        let center = in_frame(low + 0.5 * (high - low));
-        let mut near = Self {
-            minus_twice: [[0.0; LEAF]; 3],
-            squared: [f32::INFINITY; LEAF],
-            radius: 0.0,
-            center: center.to_array(),
-        };
-        for (i, item) in chunk.iter().enumerate() {
-            let p = (in_frame(item.at) - center).as_vec3();
+    const NONE: Self = Self {
+        minus_twice: [[0.0; LEAF]; 3],
+        squared: [f32::INFINITY; LEAF],
+        radius: 0.0,
+        center: [0.0; 3],
+    };
+
+    /// Of points in the tree's frame.
+    fn new(points: &[DVec3]) -> Self {
+        let mut near = Self::NONE;
+        let (low, high) = extent(points);
+        let center = 0.5 * (low + high);
+        near.center = center.to_array();
+        for (i, &point) in points.iter().enumerate() {
+            let p = (point - center).as_vec3();
             for e in 0..3 {
                 near.minus_twice[e][i] = -2.0 * p[e];
             }
@@ -72,64 +73,69 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    /// Sorts `items`, of which there must be some, into the tree's order, and builds the tree on them.
-    pub(super) fn new(items: &mut [Item]) -> Self {
-        let len = items.len();
-        let from = items.first().map_or(DVec3::ZERO, |_| extent(items).0);
-        sort(items, from);
-        // Within a leaf by number, so that the first of equals is the lowest.
-        for leaf in items.chunks_mut(LEAF) {
-            leaf.sort_unstable_by_key(|item| item.id);
-        }
-        let (low, high) = extent(items);
+    /// Builds the tree on `points`, of which there must be some. Their numbers in its order come along.
+    pub(super) fn new(points: &[DVec3]) -> (Self, Vec<u32>) {
+        let (low, high) = extent(points);
         let origin = low + 0.5 * (high - low);
         let half = 0.5 * (high - low).max_element();
         let scale = if half > 0.0 { 1.0 / half } else { 1.0 };
-        let items = &*items;
-        let leaves = items
-            .chunks(LEAF)
-            .map(|chunk| {
-                let mut leaf = [[f64::INFINITY; LEAF]; 3];
-                for (i, item) in chunk.iter().enumerate() {
+        let in_frame = |number: u32| (points[number as usize] - origin) * scale;
+        let mut order = in_order(points.iter().map(|&p| ((p - origin) * scale).as_vec3()));
+        let count = points.len().div_ceil(LEAF);
+        let mut leaves = vec![[[f64::INFINITY; LEAF]; 3]; count];
+        let mut near = vec![Near::NONE; count];
+        let mut boxes = vec![Boxes::NONE; count.div_ceil(WIDTH)];
+        let pieces = Pieces {
+            numbers: &mut order,
+            leaves: &mut leaves,
+            near: &mut near,
+            boxes: &mut boxes,
+        };
+        pieces.each(&|piece: Pieces<'_>| {
+            for (lane, numbers) in piece.numbers.chunks_mut(LEAF).enumerate() {
+                // By number, so that the first of equals is the lowest.
+                numbers.sort_unstable();
+                let mut local = [DVec3::ZERO; LEAF];
+                for (i, &number) in numbers.iter().enumerate() {
                     for e in 0..3 {
-                        leaf[e][i] = item.at[e];
+                        piece.leaves[lane][e][i] = points[number as usize][e];
                     }
+                    local[i] = in_frame(number);
                 }
-                leaf
-            })
-            .collect();
-        let near = items
-            .chunks(LEAF)
-            .map(|chunk| Near::new(chunk, |p| (p - origin) * scale))
-            .collect();
-        let mut levels = Vec::new();
+                let local = &local[..numbers.len()];
+                piece.near[lane] = Near::new(local);
+                piece.boxes[0].set(lane, local.iter().copied());
+            }
+        });
+        let mut levels = vec![boxes];
         let mut size = LEAF;
-        loop {
-            let group = |range: std::ops::Range<usize>| {
+        while let Some(below) = levels.last()
+            && below.len() > 1
+        {
+            size *= WIDTH;
+            // One by one where there are few.
+            let piece = if below.len() > 16 * WIDTH { WIDTH } else { 1 };
+            let part = |range: Range<usize>| {
                 let mut boxes = Boxes::NONE;
-                let from = range.start * size * WIDTH;
-                let to = (from + size * WIDTH).min(len);
-                for (lane, chunk) in items[from..to].chunks(size).enumerate() {
-                    boxes.set(lane, chunk.iter().map(|p| (p.at - origin) * scale));
+                for (lane, number) in range.enumerate() {
+                    let numbers = &order[number * size..((number + 1) * size).min(order.len())];
+                    boxes.set(lane, numbers.iter().map(|&number| in_frame(number)));
                 }
                 boxes
             };
-            let level = map_pieces(len.div_ceil(size * WIDTH), 1, &(), group).unwrap_or_default();
-            let top = level.len() == 1;
-            levels.push(level);
-            if top {
-                break;
-            }
-            size *= WIDTH;
+            let parts = map_pieces(below.len(), piece, &(), part).unwrap_or_default();
+            let whole = |parts: &[Boxes]| Boxes::together(parts, piece);
+            levels.push(parts.chunks(WIDTH / piece).map(whole).collect());
         }
-        Self {
+        let tree = Self {
             leaves,
             near,
             levels,
-            len,
+            len: points.len(),
             origin,
             scale,
-        }
+        };
+        (tree, order)
     }
 
     /// The squared distances from `q` to the points of a leaf, in their order.
@@ -151,6 +157,24 @@ impl Tree {
         let mut walk = Walk::new();
         walk.begin(self, from);
         walk
+    }
+
+    /// The boxes of a level by sixteens, from those around leaves up to a single group.
+    #[inline(always)]
+    pub(super) fn boxes(&self, level: usize) -> &[Boxes] {
+        &self.levels[level]
+    }
+
+    /// The highest level.
+    #[inline(always)]
+    pub(super) fn top(&self) -> u32 {
+        self.levels.len() as u32 - 1
+    }
+
+    /// How many leaves there are.
+    #[inline(always)]
+    pub(super) fn leaves(&self) -> usize {
+        self.leaves.len()
     }
 
     /// A leaf near `q`, down the nearest boxes.
@@ -220,13 +244,13 @@ impl Tree {
 
     /// Whether any query may have a point of `leaf` within its reach.
     #[inline(always)]
-    pub(super) fn any_within<S: Simd, const N: usize>(
+    pub(super) fn any_within<S: Simd>(
         &self,
         leaf: usize,
-        queries: &[[f32; N]; 3],
-        reach_squared: &[f32; N],
+        queries: &[Lanes; 3],
+        reach_squared: &Lanes,
     ) -> bool {
-        self.levels[0][leaf / WIDTH].any_within::<S, N>(leaf % WIDTH, queries, reach_squared)
+        self.levels[0][leaf / WIDTH].any_within::<S>(leaf % WIDTH, queries, reach_squared)
     }
 
     /// The positions of a leaf's points in the tree's order.
@@ -240,120 +264,47 @@ impl Tree {
     }
 }
 
-/// A walk from box to box, down to the leaves. No iterator and without closures, since only what is
-/// inlined is built for each kind of vector instructions.
-pub(super) struct Walk {
-    from: [f32; 3],
-    /// Distances, levels and numbers of the groups to go into.
-    stack: [(f32, u32, u32); 12 * WIDTH],
-    height: usize,
-    /// Which leaves of `group` are still to be visited, a bit each, and how far all of them are.
-    near: u32,
-    group: usize,
-    distances: [f32; WIDTH],
+/// What is made of some of a tree's points, by groups of sixteen leaves.
+struct Pieces<'a> {
+    numbers: &'a mut [u32],
+    leaves: &'a mut [Leaf],
+    near: &'a mut [Near],
+    boxes: &'a mut [Boxes],
 }
 
-impl Walk {
-    /// A walk that has ended.
-    #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self {
-            from: [0.0; 3],
-            stack: [(0.0, 0, 0); 12 * WIDTH],
-            height: 0,
-            near: 0,
-            group: 0,
-            distances: [0.0; WIDTH],
+impl Pieces<'_> {
+    /// Runs `work` on each group.
+    fn each(self, work: &(impl Fn(Pieces<'_>) + Sync)) {
+        let groups = self.boxes.len();
+        if groups == 1 {
+            return work(self);
         }
-    }
-
-    /// Begins again, as [`Tree::walk`].
-    #[inline(always)]
-    pub(super) fn begin(&mut self, tree: &Tree, from: Vec3) {
-        self.from = from.to_array();
-        self.stack[0] = (0.0, tree.levels.len() as u32 - 1, 0);
-        (self.height, self.near) = (1, 0);
-    }
-
-    /// The next leaf within the root of `reach_squared`, which must not grow from call to call.
-    #[inline(always)]
-    pub(super) fn next<S: Simd>(&mut self, tree: &Tree, reach_squared: f32) -> Option<usize> {
-        loop {
-            while self.near != 0 {
-                let i = self.near.trailing_zeros() as usize;
-                self.near &= self.near - 1;
-                let leaf = self.group * WIDTH + i;
-                // Where rounding left no number, better look.
-                if !(self.distances[i] > reach_squared) && leaf < tree.leaves.len() {
-                    return Some(leaf);
-                }
-            }
-            if self.height == 0 {
-                return None;
-            }
-            self.height -= 1;
-            let (distance, level, group) = self.stack[self.height];
-            if distance > reach_squared {
-                continue;
-            }
-            let (level, group) = (level as usize, group as usize);
-            let distances = tree.levels[level][group].distances_squared::<S>(self.from);
-            // Bit after bit and then all at once, as vectors can.
-            let mut bits = [0u32; WIDTH];
-            for i in 0..WIDTH {
-                bits[i] = if distances[i] > reach_squared { 0 } else { 1 << i };
-            }
-            let mut near = bits.iter().fold(0, |all, bit| all | bit);
-            if level == 0 {
-                (self.near, self.group, self.distances) = (near, group, distances);
-                continue;
-            }
-            while near != 0 {
-                let i = near.trailing_zeros() as usize;
-                near &= near - 1;
-                let below = group * WIDTH + i;
-                if below < tree.levels[level - 1].len() {
-                    self.stack[self.height] = (distances[i], level as u32 - 1, below as u32);
-                    self.height += 1;
-                }
-            }
-        }
+        let half = groups / 2;
+        let (numbers, other_numbers) = self.numbers.split_at_mut(half * WIDTH * LEAF);
+        let (leaves, other_leaves) = self.leaves.split_at_mut(half * WIDTH);
+        let (near, other_near) = self.near.split_at_mut(half * WIDTH);
+        let (boxes, other_boxes) = self.boxes.split_at_mut(half);
+        let (one, other) = (
+            Pieces {
+                numbers,
+                leaves,
+                near,
+                boxes,
+            },
+            Pieces {
+                numbers: other_numbers,
+                leaves: other_leaves,
+                near: other_near,
+                boxes: other_boxes,
+            },
+        );
+        join(|| one.each(work), || other.each(work));
     }
 }
 
-fn extent(items: &[Item]) -> (DVec3, DVec3) {
-    items.iter().fold((items[0].at, items[0].at), |(low, high), p| {
-        (low.min(p.at), high.max(p.at))
-    })
-}
-
-/// Halves along the longest side, again and again, so that each leaf and each sixteen of them lie
-/// close together. The first half is a power of two of leaves, and so every node is full but the last.
-/// Of both halves the one nearer to `from` comes first, so that what follows one another lies close
-/// together as well.
-fn sort(items: &mut [Item], from: DVec3) {
-    let leaves = items.len().div_ceil(LEAF);
-    if leaves < 2 {
-        return;
-    }
-    let (low, high) = extent(items);
-    let axis = (high - low).max_position();
-    let half = leaves.next_power_of_two() / 2 * LEAF;
-    let middle = low + 0.5 * (high - low);
-    if from[axis] > middle[axis] {
-        items.select_nth_unstable_by(half, |a, b| b.at[axis].total_cmp(&a.at[axis]));
-    } else {
-        items.select_nth_unstable_by(half, |a, b| a.at[axis].total_cmp(&b.at[axis]));
-    }
-    let (left, right) = items.split_at_mut(half);
-    if leaves * LEAF < ALONE {
-        sort(left, from);
-        let last = left[half - 1].at;
-        sort(right, last);
-    } else {
-        // Across, and at the other end sideways, is about where the first half ends.
-        let mut last = low + high - from;
-        last[axis] = middle[axis];
-        join(|| sort(left, from), || sort(right, last));
-    }
+fn extent(points: &[DVec3]) -> (DVec3, DVec3) {
+    let first = points[0];
+    points
+        .iter()
+        .fold((first, first), |(low, high), &p| (low.min(p), high.max(p)))
 }
