@@ -58,9 +58,8 @@ impl Neighbors {
         }
         let (_, &mut (limit, _), _) = found.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
         found.clear();
-        let in_frame = self.tree.in_frame(query).as_vec3();
-        let reach = self.tree.reach_squared(in_frame, limit);
-        let mut walk = self.tree.walk(in_frame);
+        let reach = self.tree.reach(limit);
+        let mut walk = self.tree.walk(self.tree.in_frame(query).to_array());
         while let Some((leaf, _)) = walk.next::<Scalar>(&self.tree, reach) {
             self.collect(leaf, query, limit, found);
         }

@@ -4,7 +4,6 @@
 //! compared in double precision. Where the bound leaves two leaves in the running, as with points
 //! that are equally far, the query is asked again by itself.
 
-use glam::{DVec3, Vec3};
 use pulp::Simd;
 
 use super::boxes::SLACK;
@@ -23,14 +22,11 @@ const LEAF_ROUNDING: f32 = 1.0 / (1 << 19) as f32;
 const PLACE_ROUNDING: f32 = 1.0 / (1 << 19) as f32;
 /// The same for sums of what was rounded before, in units of their size.
 const SUM_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
-/// The same for what was computed in double precision, in units of (w + 2)².
+/// The same for what was computed in double precision, in units of (w + r) (w + 2).
 const DOUBLE_ROUNDING: f32 = 1.0 / (1u64 << 48) as f32;
-/// How much wider a squared reach is drawn than it must be, so that no root has to be taken: with e a
-/// little below this, (a + b)² is at most (1 + e) a² + (1 + 1/e) b².
-const WIDER: f32 = 1e-4;
 /// Leaves whose boxes are not much farther from the queries' middle than the queries are from what
 /// they have found are looked into first: most of them hold what is nearest to some query.
-const FIRST: f32 = 1.1;
+const FIRST: f32 = 0.25;
 /// More than is lost where products fall below single precision's range.
 const UNDERFLOW: f32 = 1e-37;
 /// Farther away than this many half extents of the points, squares are not trusted.
@@ -63,7 +59,6 @@ struct Looked {
 /// is the same for all points, and the others are small or well known, so that single precision
 /// holds the differences.
 pub(super) struct Block {
-    in_frame: [Lanes; 3],
     /// A point that the queries lie around, how far each of them lies from it, and how far the
     /// farthest does.
     center: [f64; 3],
@@ -71,9 +66,8 @@ pub(super) struct Block {
     radius: f32,
     /// The queries as seen from there.
     local: [Lanes; 3],
-    /// What rounding may add to a distance from a box, as what it adds to a squared reach.
-    slack_squared: Lanes,
-    /// Squared distances are kept as what they exceed |q|² and the reference by; `own` is both.
+    /// Squared distances are kept as what they exceed |q|² and the reference by; `own` is both, or a
+    /// little more.
     reference: f64,
     own: Lanes,
     /// The squared distance of the nearest point, and of the nearest in any other leaf than its.
@@ -92,8 +86,9 @@ pub(super) struct Block {
     /// reach was when the block began to walk.
     slope: Lanes,
     more: Lanes,
-    /// The greatest of these.
+    /// The greatest of these, and a bound on its root.
     center_reach_squared: f32,
+    center_reach: f32,
     /// How far it may be from the center and be looked into first, squared.
     first_squared: f32,
 }
@@ -103,12 +98,10 @@ impl Block {
     #[inline(always)]
     pub(super) fn empty() -> Self {
         Self {
-            in_frame: [Lanes::ZERO; 3],
             center: [0.0; 3],
             from_center: Lanes::ZERO,
             radius: 0.0,
             local: [Lanes::ZERO; 3],
-            slack_squared: Lanes::ZERO,
             reference: 0.0,
             own: Lanes::ZERO,
             least: Lanes::INFINITY,
@@ -120,6 +113,7 @@ impl Block {
             slope: Lanes::ZERO,
             more: Lanes::ZERO,
             center_reach_squared: f32::INFINITY,
+            center_reach: 0.0,
             first_squared: 0.0,
         }
     }
@@ -142,50 +136,113 @@ impl Block {
         self.looked.clear();
         self.reference = 0.0;
         for e in 0..3 {
-            let (mut all, mut in_frame, mut local) = ([0.0; BLOCK], Lanes::ZERO, Lanes::ZERO);
+            let (mut all, mut local) = ([0.0; BLOCK], Lanes::ZERO);
             for i in 0..BLOCK {
                 all[i] = tree.in_frame_along(e, queries[e][i]);
-                in_frame.0[i] = all[i] as f32;
             }
-            let center = f64::from(in_frame.sum(simd) / BLOCK as f32);
+            let first = all[0];
+            for i in 0..BLOCK {
+                local.0[i] = (all[i] - first) as f32;
+            }
+            let center = first + f64::from(local.sum(simd) / BLOCK as f32);
             for i in 0..BLOCK {
                 local.0[i] = (all[i] - center) as f32;
             }
             let c = tree.leaf_center(leaf)[e] - center;
             self.reference += c * c;
-            (self.in_frame[e], self.local[e], self.center[e]) = (in_frame, local, center);
+            (self.local[e], self.center[e]) = (local, center);
         }
         let reference = self.reference as f32;
-        let (mut sizes, mut from_center) = (Lanes::ZERO, Lanes::ZERO);
+        let mut from_center = Lanes::ZERO;
         for i in 0..BLOCK {
-            let q = [
-                self.in_frame[0].0[i],
-                self.in_frame[1].0[i],
-                self.in_frame[2].0[i],
-            ];
-            let size = 1.0 + q[0].abs() + q[1].abs() + q[2].abs();
             let d = [self.local[0].0[i], self.local[1].0[i], self.local[2].0[i]];
             let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-            let slack = SLACK * size;
-            sizes.0[i] = size;
-            self.slack_squared.0[i] = (1.0 + 2.0 / WIDER) * slack * slack;
-            self.own.0[i] = squared + reference;
+            self.own.0[i] = (squared + reference) * (1.0 + 2.0 * SUM_ROUNDING);
             from_center.0[i] = squared.sqrt();
         }
         self.radius = from_center.greatest(simd) * (1.0 + SLACK);
         self.from_center = from_center;
-        sizes.greatest(simd) < FAR
+        let [x, y, z] = self.center;
+        ((x.abs() + y.abs() + z.abs()) as f32 + self.radius) < FAR
     }
 
-    /// Looks for nearer points in a leaf, in which it must not have looked before.
+    /// Looks for nearer points in a leaf, in which it must not have looked before. `queries` are those
+    /// that the block has begun with.
     #[inline(always)]
-    pub(super) fn look_into<S: Simd>(&mut self, simd: S, tree: &Tree, leaf: usize) {
+    pub(super) fn look_into<S: Simd>(&mut self, simd: S, tree: &Tree, queries: &[Column; 3], leaf: usize) {
+        if tree.is_coarse(leaf) {
+            self.look_exactly(simd, tree, queries, leaf);
+        } else {
+            self.look_closely(simd, tree, leaf);
+        }
+    }
+
+    /// Looks into a leaf that is so large that single precision would blur all distances.
+    #[inline(always)]
+    fn look_exactly<S: Simd>(&mut self, simd: S, tree: &Tree, queries: &[Column; 3], leaf: usize) {
+        let [x, y, z] = queries;
+        let mut nearest = [f64::INFINITY; BLOCK];
+        for place in tree.positions(leaf) {
+            let p = tree.place(leaf, place % LEAF);
+            for i in 0..BLOCK {
+                let d = [x[i] - p.x, y[i] - p.y, z[i] - p.z];
+                let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+                nearest[i] = if squared < nearest[i] { squared } else { nearest[i] };
+            }
+        }
+        let scale_squared = tree.scale() * tree.scale();
+        let look = self.looked.len() as u32;
+        let mut largest = Lanes::ZERO;
+        for i in 0..BLOCK {
+            let mut own = self.reference;
+            for e in 0..3 {
+                let local = f64::from(self.local[e].0[i]);
+                own += local * local;
+            }
+            let squared = nearest[i] * scale_squared;
+            let (more, squared) = ((squared - own) as f32, squared as f32);
+            let before = self.least.0[i];
+            let nearer = more < before;
+            // What is farther by far must not blur what is near; it only must not seem farther than it is.
+            let second = if nearer {
+                before
+            } else {
+                more - SUM_ROUNDING * squared
+            };
+            largest.0[i] = if nearer { squared } else { 0.0 };
+            self.least.0[i] = if nearer { more } else { before };
+            self.look.0[i] = if nearer { look } else { self.look.0[i] };
+            self.second.0[i] = if second < self.second.0[i] {
+                second
+            } else {
+                self.second.0[i]
+            };
+        }
+        let own = self.radius * self.radius + self.reference as f32;
+        let rounding = SUM_ROUNDING * (largest.greatest(simd) + own) + UNDERFLOW;
+        if !(rounding <= self.rounding) {
+            self.rounding = rounding;
+        }
+        self.looked.push(Looked {
+            leaf: leaf as u32,
+            center: [0.0; 3],
+            // Which of its points it is, is asked again.
+            ties: f32::INFINITY,
+        });
+    }
+
+    #[inline(always)]
+    fn look_closely<S: Simd>(&mut self, simd: S, tree: &Tree, leaf: usize) {
         let center = tree.leaf_center(leaf);
         let near = tree.leaf_near(leaf);
-        let exact: [f64; 3] = std::array::from_fn(|e| center[e] - self.center[e]);
+        // No closures: they would not be built for these instructions.
+        let mut exact = [0.0; 3];
+        for e in 0..3 {
+            exact[e] = center[e] - self.center[e];
+        }
         let squared = exact[0] * exact[0] + exact[1] * exact[1] + exact[2] * exact[2];
         let farther = (squared - self.reference) as f32;
-        let c = exact.map(|c| c as f32);
+        let c = [exact[0] as f32, exact[1] as f32, exact[2] as f32];
         let look = simd.splat_u32s(self.looked.len() as u32);
         let (x, y, z) = (&near.minus_twice[0], &near.minus_twice[1], &near.minus_twice[2]);
         let local = [
@@ -235,10 +292,11 @@ impl Block {
         let (place, r) = (self.radius * distance, near.radius);
         let size = distance + self.radius;
         let within = LEAF_ROUNDING * r * (size + r);
+        let double = DOUBLE_ROUNDING * (size + r) * (size + 2.0);
         let rounding = within
             + PLACE_ROUNDING * place
             + SUM_ROUNDING * (farther.abs() + 2.0 * place + r * (2.0 * size + r))
-            + DOUBLE_ROUNDING * (size + 2.0) * (size + 2.0)
+            + double
             + UNDERFLOW;
         if !(rounding <= self.rounding) {
             self.rounding = rounding;
@@ -246,7 +304,7 @@ impl Block {
         self.looked.push(Looked {
             leaf: leaf as u32,
             center: c,
-            ties: 2.0 * (within + UNDERFLOW),
+            ties: 2.0 * (within + double + UNDERFLOW),
         });
     }
 
@@ -255,12 +313,14 @@ impl Block {
     pub(super) fn begin_reach<S: Simd>(&mut self, simd: S) {
         self.update_reach(simd);
         for i in 0..BLOCK {
-            let reach = self.reach_squared.0[i].sqrt();
-            let farther = reach + self.from_center.0[i] * (1.0 + SLACK);
-            // Never through zero, since slack is part of every reach.
-            self.slope.0[i] = farther / reach;
-            self.more.0[i] = farther * (farther - reach);
+            let f = self.from_center.0[i] * (1.0 + SLACK);
+            // (r + f)² is at most (1 + k) r² + (1 + 1/k) f², whatever k, and just that for k = f / r.
+            // What is zero, or nearly, must not divide.
+            let reach = self.reach_squared.0[i].sqrt().max(f * 0.0625).max(1e-18);
+            self.slope.0[i] = (reach + f) / reach;
+            self.more.0[i] = (reach + f) * f;
         }
+        self.center_reach = 0.0;
         self.update_reach(simd);
     }
 
@@ -269,35 +329,37 @@ impl Block {
     pub(super) fn update_reach<S: Simd>(&mut self, simd: S) {
         let (own, least) = (self.own.parts::<S>(), self.least.parts::<S>());
         let (slope, more) = (self.slope.parts::<S>(), self.more.parts::<S>());
-        let slack_squared = self.slack_squared.parts::<S>();
         let reach_squared = self.reach_squared.parts_mut::<S>();
         let rounding = simd.splat_f32s(self.rounding);
-        let wider = simd.splat_f32s(1.0 + WIDER);
         let zero = simd.splat_f32s(0.0);
         let (mut farthest, mut sum) = (zero, zero);
         for part in 0..own.len() {
             let squared = simd.add_f32s(own[part], simd.add_f32s(least[part], rounding));
-            let squared = simd.max_f32s(squared, zero);
-            let reach = simd.mul_add_e_f32s(squared, wider, slack_squared[part]);
+            let reach = simd.max_f32s(squared, zero);
             reach_squared[part] = reach;
             farthest = simd.max_f32s(farthest, simd.mul_add_e_f32s(reach, slope[part], more[part]));
             sum = simd.add_f32s(sum, reach);
         }
-        self.center_reach_squared = simd.reduce_max_f32s(farthest) * (1.0 + WIDER);
-        self.first_squared = simd.reduce_sum_f32s(sum) * (FIRST / BLOCK as f32);
+        self.center_reach_squared = simd.reduce_max_f32s(farthest) * (1.0 + SLACK);
+        // The reach hardly ever grows: then because more was rounded.
+        if self.center_reach_squared > self.center_reach * self.center_reach {
+            self.center_reach = self.center_reach_squared.sqrt() * (1.0 + SLACK);
+        }
+        let mean = simd.reduce_sum_f32s(sum) * (1.0 / BLOCK as f32);
+        self.first_squared = mean + FIRST * self.center_reach * self.radius;
     }
 
     /// A point that the queries lie around, in the tree's frame.
     #[inline(always)]
-    pub(super) fn center(&self) -> Vec3 {
-        // It was computed in single precision.
-        DVec3::from_array(self.center).as_vec3()
+    pub(super) fn center(&self) -> [f64; 3] {
+        self.center
     }
 
-    /// How far from the center a box may be and hold something nearer to any query, squared.
+    /// How far from the center a box may be and hold something nearer to any query, squared, and a
+    /// bound on its root.
     #[inline(always)]
-    pub(super) fn center_reach_squared(&self) -> f32 {
-        self.center_reach_squared
+    pub(super) fn center_reach(&self) -> (f32, f32) {
+        (self.center_reach_squared, self.center_reach)
     }
 
     /// How far from the center a box may be and be looked into before others, squared.
@@ -309,7 +371,15 @@ impl Block {
     /// Whether a box may hold something nearer to any query.
     #[inline(always)]
     pub(super) fn may_find_in<S: Simd>(&self, tree: &Tree, leaf: usize) -> bool {
-        tree.any_within::<S>(leaf, &self.in_frame, &self.reach_squared)
+        let (boxes, lane) = tree.leaf_box(leaf);
+        let center = tree.leaf_center(leaf);
+        let (mut own, mut size) = ([0.0; 3], self.radius + tree.leaf_near(leaf).radius);
+        for e in 0..3 {
+            own[e] = (center[e] - self.center[e]) as f32;
+            size += own[e].abs();
+        }
+        let reach = (&self.reach_squared, self.center_reach);
+        boxes.any_within::<S>((lane, own, size), &self.local, reach)
     }
 
     /// Which point of the leaf found is the query's nearest, where single precision tells them apart.

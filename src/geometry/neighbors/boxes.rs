@@ -13,8 +13,9 @@ use crate::geometry::eigen::about_eigenvectors;
 /// Boxes that are tested together.
 pub(super) const WIDTH: usize = 16;
 
-/// What rounding may add to a distance from a box, a unit of the query's distance from the origin
-/// plus one (the frame's half extent): 18 roundings of 2^-24, and as much again for safety.
+/// What rounding may add to a distance from a box, a unit of what is added up for it (how far the
+/// query is from where the box is measured from, and how far the box reaches from there): 18
+/// roundings of 2^-24, and as much again for safety.
 pub(super) const SLACK: f32 = 2.2e-6;
 
 /// `a * b + c`, rounded once where the machine can. Only where a bound on rounding is kept
@@ -35,9 +36,15 @@ pub(super) fn times_plus<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
 #[repr(C, align(64))]
 pub(super) struct Boxes {
     axes: [[[f32; WIDTH]; 3]; 3],
-    /// The boxes' centers along their axes, negative.
+    /// The boxes' centers along their axes, negative, seen from `center`.
     offset: [[f32; WIDTH]; 3],
     half: [[f32; WIDTH]; 3],
+    /// The same seen from each box's own point.
+    own_offset: [[f32; WIDTH]; 3],
+    /// A point among the boxes, and how far they reach from it at most. Seen from the middle of all
+    /// points, which may be far away, single precision could not tell small boxes apart.
+    center: [f64; 3],
+    radius: f32,
 }
 
 impl Boxes {
@@ -46,12 +53,25 @@ impl Boxes {
         axes: [[[0.0; WIDTH]; 3]; 3],
         offset: [[0.0; WIDTH]; 3],
         half: [[f32::NEG_INFINITY; WIDTH]; 3],
+        own_offset: [[0.0; WIDTH]; 3],
+        center: [0.0; 3],
+        radius: 0.0,
     };
 
-    /// All boxes of `parts`, of which each but the last has `size`.
+    /// No box yet, of those that lie around `center`.
+    pub(super) fn around(center: DVec3) -> Self {
+        Self {
+            center: center.to_array(),
+            ..Self::NONE
+        }
+    }
+
+    /// All boxes of `parts`, of which each but the last has `size`; all parts have the same center.
     pub(super) fn together(parts: &[Self], size: usize) -> Self {
         let mut all = Self::NONE;
         for (part, boxes) in parts.iter().enumerate() {
+            all.center = boxes.center;
+            all.radius = all.radius.max(boxes.radius);
             for lane in 0..size {
                 let to = part * size + lane;
                 for e in 0..3 {
@@ -60,15 +80,23 @@ impl Boxes {
                     }
                     all.offset[e][to] = boxes.offset[e][lane];
                     all.half[e][to] = boxes.half[e][lane];
+                    all.own_offset[e][to] = boxes.own_offset[e][lane];
                 }
             }
         }
         all
     }
 
-    /// Puts the box around `points` (in the boxes' frame) into `lane`.
-    pub(super) fn set(&mut self, lane: usize, points: impl ExactSizeIterator<Item = DVec3> + Clone) {
+    /// Puts the box around `points` (in the boxes' frame) into `lane`. `own` is a point among them.
+    pub(super) fn set(
+        &mut self,
+        lane: usize,
+        own: DVec3,
+        points: impl ExactSizeIterator<Item = DVec3> + Clone,
+    ) {
         let count = points.len() as f64;
+        let center = DVec3::from_array(self.center);
+        let points = points.map(|p| p - center);
         let mean = points.clone().sum::<DVec3>() / count;
         let mut m = [0.0; 6];
         for p in points.clone() {
@@ -90,19 +118,30 @@ impl Boxes {
         );
         let middle = 0.5 * (low + high);
         let half = 0.5 * (high - low);
+        let own = along(own - center);
         for e in 0..3 {
+            self.own_offset[e][lane] = (own[e] - middle[e]) as f32;
             self.offset[e][lane] = -middle[e] as f32;
             self.half[e][lane] = half[e] as f32;
             for f in 0..3 {
                 self.axes[e][f][lane] = axes[e][f];
             }
         }
+        let reach = low.abs().max(high.abs()).length() as f32;
+        self.radius = self.radius.max(reach * (1.0 + SLACK));
     }
 
-    /// The squared distances from `q` to the boxes.
+    /// The squared distances from `from` (in the boxes' frame) to the boxes, so much less that a box
+    /// is surely farther away than `reach` where they exceed its square.
     #[inline(always)]
-    pub(super) fn distances_squared<S: Simd>(&self, q: [f32; 3]) -> [f32; WIDTH] {
+    pub(super) fn distances_squared<S: Simd>(&self, from: [f64; 3], reach: f32) -> [f32; WIDTH] {
+        let mut q = [0.0; 3];
+        for e in 0..3 {
+            q[e] = (from[e] - self.center[e]) as f32;
+        }
+        let slack = SLACK * (q[0].abs() + q[1].abs() + q[2].abs() + self.radius);
         // Plain loops over lanes, which the compiler turns into vector instructions.
+        let less = slack * (2.0 * reach + slack);
         let mut sum = [0.0; WIDTH];
         for e in 0..3 {
             let ([ax, ay, az], offset, half) = (&self.axes[e], &self.offset[e], &self.half[e]);
@@ -116,22 +155,33 @@ impl Boxes {
                 sum[i] = times_plus::<S>(outside, outside, sum[i]);
             }
         }
+        for i in 0..WIDTH {
+            sum[i] -= less;
+        }
         sum
     }
 
-    /// Whether any query lies within its reach of the box in `lane`; NaN counts as within.
+    /// Whether any query lies within its reach of the box in `lane`; NaN counts as within. The box's
+    /// own point is seen at `own` from where the queries are seen from, at most `size` is added up for
+    /// any of them, and none reaches farther than `farthest`.
     #[inline(always)]
     pub(super) fn any_within<S: Simd>(
         &self,
-        lane: usize,
+        (lane, own, size): (usize, [f32; 3], f32),
         queries: &[Lanes; 3],
-        reach_squared: &Lanes,
+        (reach_squared, farthest): (&Lanes, f32),
     ) -> bool {
+        let slack = SLACK * size;
+        let less = slack * (2.0 * farthest + slack);
         let [x, y, z] = queries;
         let mut sum = [0.0; BLOCK];
         for e in 0..3 {
-            let [ax, ay, az]: [f32; 3] = std::array::from_fn(|f| self.axes[e][f][lane]);
-            let (offset, half) = (self.offset[e][lane], self.half[e][lane]);
+            let axes = &self.axes[e];
+            let (ax, ay, az) = (axes[0][lane], axes[1][lane], axes[2][lane]);
+            let (offset, half) = (self.own_offset[e][lane], self.half[e][lane]);
+            let offset = times_plus::<S>(ax, -own[0], offset);
+            let offset = times_plus::<S>(ay, -own[1], offset);
+            let offset = times_plus::<S>(az, -own[2], offset);
             for i in 0..BLOCK {
                 let along = times_plus::<S>(ax, x.0[i], offset);
                 let along = times_plus::<S>(ay, y.0[i], along);
@@ -143,7 +193,7 @@ impl Boxes {
         }
         let mut beyond = true;
         for i in 0..BLOCK {
-            beyond &= sum[i] > reach_squared.0[i];
+            beyond &= sum[i] - less > reach_squared.0[i];
         }
         !beyond
     }

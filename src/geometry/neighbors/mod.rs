@@ -141,13 +141,12 @@ impl Neighbors {
         // The first place there stands in where every distance overflows.
         let mut best = (f64::INFINITY, start * LEAF);
         self.look_into(start, query, &mut best);
-        let in_frame = self.tree.in_frame(query).as_vec3();
-        let mut reach = self.tree.reach_squared(in_frame, best.0);
-        let mut walk = self.tree.walk(in_frame);
+        let mut reach = self.tree.reach(best.0);
+        let mut walk = self.tree.walk(self.tree.in_frame(query).to_array());
         while let Some((leaf, _)) = walk.next::<S>(&self.tree, reach) {
             if leaf != start {
                 self.look_into(leaf, query, &mut best);
-                reach = self.tree.reach_squared(in_frame, best.0);
+                reach = self.tree.reach(best.0);
             }
         }
         best

@@ -1,13 +1,16 @@
 //! The order of points in a tree: each leaf's and each node's lie close together, and so do those
 //! that follow one another.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::tree::LEAF;
 use crate::geometry::parallel::join;
 
 /// Points below which sorting is not worth another core.
 const ALONE: usize = 512;
+
+/// What is so much smaller than it is far away is seen from itself.
+const SMALL: f32 = 1.0 / 1024.0;
 
 /// A point and its number before sorting.
 #[derive(Debug, Clone, Copy)]
@@ -16,11 +19,16 @@ struct Item {
     number: u32,
 }
 
-/// The points' numbers in the tree's order.
-pub(super) fn in_order(points: impl Iterator<Item = Vec3>) -> Vec<u32> {
-    let mut items: Vec<Item> = points.zip(0..).map(|(at, number)| Item { at, number }).collect();
-    if let Some(from) = (!items.is_empty()).then(|| extent(&items).0) {
-        sort(&mut items, from);
+/// The numbers of `count` points in the tree's order.
+pub(super) fn in_order(count: usize, point: &(impl Fn(u32) -> DVec3 + Sync)) -> Vec<u32> {
+    let items = (0..count as u32).map(|number| Item {
+        at: point(number).as_vec3(),
+        number,
+    });
+    let mut items: Vec<Item> = items.collect();
+    if count > 0 {
+        let from = extent(&items).0;
+        sort(&mut items, from, DVec3::ZERO, point);
     }
     items.iter().map(|item| item.number).collect()
 }
@@ -28,13 +36,24 @@ pub(super) fn in_order(points: impl Iterator<Item = Vec3>) -> Vec<u32> {
 /// Halves along the longest side, again and again, so that each leaf and each sixteen of them lie
 /// close together. The first half is a power of two of leaves, and so every node is full but the last.
 /// Of both halves the one nearer to `from` comes first, so that what follows one another lies close
-/// together as well.
-fn sort(items: &mut [Item], from: Vec3) {
+/// together as well. The items are seen from `origin`.
+fn sort(items: &mut [Item], mut from: Vec3, mut origin: DVec3, point: &(impl Fn(u32) -> DVec3 + Sync)) {
     let leaves = items.len().div_ceil(LEAF);
     if leaves < 2 {
         return;
     }
-    let (low, high) = extent(items);
+    let (mut low, mut high) = extent(items);
+    let away = low.abs().max(high.abs()).max_element();
+    if (high - low).max_element() < away * SMALL {
+        // A clump far from the origin, where single precision has few steps left: seen from itself.
+        let middle = (0.5 * (low + high)).as_dvec3();
+        origin += middle;
+        for item in &mut *items {
+            item.at = (point(item.number) - origin).as_vec3();
+        }
+        from = (from.as_dvec3() - middle).as_vec3();
+        (low, high) = extent(items);
+    }
     let axis = (high - low).max_position();
     let half = leaves.next_power_of_two() / 2 * LEAF;
     let middle = 0.5 * (low + high);
@@ -45,14 +64,17 @@ fn sort(items: &mut [Item], from: Vec3) {
     }
     let (left, right) = items.split_at_mut(half);
     if leaves * LEAF < ALONE {
-        sort(left, from);
         let last = left[half - 1].at;
-        sort(right, last);
+        sort(left, from, origin, point);
+        sort(right, last, origin, point);
     } else {
         // Across, and at the other end sideways, is about where the first half ends.
         let mut last = low + high - from;
         last[axis] = middle[axis];
-        join(|| sort(left, from), || sort(right, last));
+        join(
+            || sort(left, from, origin, point),
+            || sort(right, last, origin, point),
+        );
     }
 }
 

@@ -77,11 +77,11 @@ impl<'a, S: Simd> Together<'a, S> {
             return;
         }
         // Where the query before these found its, so that not much else is in reach.
-        block.look_into(simd, tree, start);
+        block.look_into(simd, tree, queries, start);
         block.begin_reach(simd);
         walk.begin(tree, block.center());
         let mut count = 0;
-        while let Some((leaf, distance)) = walk.next::<S>(tree, block.center_reach_squared()) {
+        while let Some((leaf, distance)) = walk.next::<S>(tree, block.center_reach()) {
             if leaf == start {
                 continue;
             }
@@ -90,14 +90,14 @@ impl<'a, S: Simd> Together<'a, S> {
                 waiting[count] = (distance, leaf as u32);
                 count += 1;
             } else if first || block.may_find_in::<S>(tree, leaf) {
-                block.look_into(simd, tree, leaf);
+                block.look_into(simd, tree, queries, leaf);
                 block.update_reach(simd);
             }
         }
         for &(distance, leaf) in &waiting[..count] {
             let leaf = leaf as usize;
-            if !(distance > block.center_reach_squared()) && block.may_find_in::<S>(tree, leaf) {
-                block.look_into(simd, tree, leaf);
+            if !(distance > block.center_reach().0) && block.may_find_in::<S>(tree, leaf) {
+                block.look_into(simd, tree, queries, leaf);
                 block.update_reach(simd);
             }
         }

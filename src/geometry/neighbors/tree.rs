@@ -3,17 +3,19 @@
 
 use std::ops::Range;
 
-use glam::{DVec3, Vec3};
-use pulp::{Scalar, Simd};
+use glam::DVec3;
+use pulp::Scalar;
 
 use super::boxes::{Boxes, SLACK, WIDTH};
-use super::lanes::Lanes;
 use super::order::in_order;
 use super::walk::Walk;
 use crate::geometry::parallel::{join, map_pieces};
 
 /// Points in a leaf.
 pub(super) const LEAF: usize = 32;
+
+/// Leaves so many times as large as most are coarse.
+const COARSE: f32 = 32.0;
 
 /// Points of a leaf, coordinate by coordinate; what is left over lies at infinity.
 type Leaf = [[f64; LEAF]; 3];
@@ -70,6 +72,8 @@ pub(super) struct Tree {
     /// The boxes' frame: `(p - origin) * scale` lies within -1..1 for each point.
     origin: DVec3,
     scale: f64,
+    /// The radius beyond which a leaf is coarse.
+    coarse: f32,
 }
 
 impl Tree {
@@ -80,53 +84,64 @@ impl Tree {
         let half = 0.5 * (high - low).max_element();
         let scale = if half > 0.0 { 1.0 / half } else { 1.0 };
         let in_frame = |number: u32| (points[number as usize] - origin) * scale;
-        let mut order = in_order(points.iter().map(|&p| ((p - origin) * scale).as_vec3()));
+        let mut order = in_order(points.len(), &in_frame);
         let count = points.len().div_ceil(LEAF);
         let mut leaves = vec![[[f64::INFINITY; LEAF]; 3]; count];
         let mut near = vec![Near::NONE; count];
         let mut boxes = vec![Boxes::NONE; count.div_ceil(WIDTH)];
+        let mut bounds = vec![(DVec3::ZERO, DVec3::ZERO); boxes.len()];
         let pieces = Pieces {
             numbers: &mut order,
             leaves: &mut leaves,
             near: &mut near,
             boxes: &mut boxes,
+            bounds: &mut bounds,
         };
         pieces.each(&|piece: Pieces<'_>| {
-            for (lane, numbers) in piece.numbers.chunks_mut(LEAF).enumerate() {
-                // By number, so that the first of equals is the lowest.
-                numbers.sort_unstable();
-                let mut local = [DVec3::ZERO; LEAF];
+            let mut local = [DVec3::ZERO; LEAF * WIDTH];
+            // By number, so that the first of equals is the lowest.
+            piece.numbers.chunks_mut(LEAF).for_each(<[u32]>::sort_unstable);
+            for (at, &number) in local.iter_mut().zip(&*piece.numbers) {
+                *at = in_frame(number);
+            }
+            let local = &local[..piece.numbers.len()];
+            piece.bounds[0] = extent(local);
+            piece.boxes[0] = Boxes::around(middle(piece.bounds[0]));
+            for (lane, numbers) in piece.numbers.chunks(LEAF).enumerate() {
                 for (i, &number) in numbers.iter().enumerate() {
                     for e in 0..3 {
                         piece.leaves[lane][e][i] = points[number as usize][e];
                     }
-                    local[i] = in_frame(number);
                 }
-                let local = &local[..numbers.len()];
+                let local = &local[lane * LEAF..][..numbers.len()];
                 piece.near[lane] = Near::new(local);
-                piece.boxes[0].set(lane, local.iter().copied());
+                let own = DVec3::from_array(piece.near[lane].center);
+                piece.boxes[0].set(lane, own, local.iter().copied());
             }
         });
         let mut levels = vec![boxes];
         let mut size = LEAF;
-        while let Some(below) = levels.last()
-            && below.len() > 1
-        {
+        while bounds.len() > 1 {
             size *= WIDTH;
             // One by one where there are few.
-            let piece = if below.len() > 16 * WIDTH { WIDTH } else { 1 };
+            let piece = if bounds.len() > 16 * WIDTH { WIDTH } else { 1 };
+            let above: Vec<(DVec3, DVec3)> = bounds.chunks(WIDTH).map(union).collect();
             let part = |range: Range<usize>| {
-                let mut boxes = Boxes::NONE;
+                let middle = middle(above[range.start / WIDTH]);
+                let mut boxes = Boxes::around(middle);
                 for (lane, number) in range.enumerate() {
                     let numbers = &order[number * size..((number + 1) * size).min(order.len())];
-                    boxes.set(lane, numbers.iter().map(|&number| in_frame(number)));
+                    boxes.set(lane, middle, numbers.iter().map(|&number| in_frame(number)));
                 }
                 boxes
             };
-            let parts = map_pieces(below.len(), piece, &(), part).unwrap_or_default();
+            let parts = map_pieces(bounds.len(), piece, &(), part).unwrap_or_default();
             let whole = |parts: &[Boxes]| Boxes::together(parts, piece);
             levels.push(parts.chunks(WIDTH / piece).map(whole).collect());
+            bounds = above;
         }
+        let mut radii: Vec<f32> = near.iter().map(|near| near.radius).collect();
+        let (_, &mut typical, _) = radii.select_nth_unstable_by(count / 2, f32::total_cmp);
         let tree = Self {
             leaves,
             near,
@@ -134,6 +149,7 @@ impl Tree {
             len: points.len(),
             origin,
             scale,
+            coarse: COARSE * typical,
         };
         (tree, order)
     }
@@ -153,7 +169,7 @@ impl Tree {
     /// Walks over all leaves that may hold a point within a reach of `from`, which is in
     /// the boxes' frame, and perhaps some more.
     #[inline(always)]
-    pub(super) fn walk(&self, from: Vec3) -> Walk {
+    pub(super) fn walk(&self, from: [f64; 3]) -> Walk {
         let mut walk = Walk::new();
         walk.begin(self, from);
         walk
@@ -179,10 +195,10 @@ impl Tree {
 
     /// A leaf near `q`, down the nearest boxes.
     pub(super) fn descend(&self, q: DVec3) -> usize {
-        let in_frame = self.in_frame(q).as_vec3().to_array();
+        let in_frame = self.in_frame(q).to_array();
         let mut group = 0;
         for (level, boxes) in self.levels.iter().enumerate().rev() {
-            let distances = boxes[group].distances_squared::<Scalar>(in_frame);
+            let distances = boxes[group].distances_squared::<Scalar>(in_frame, 0.0);
             let nearest = (0..WIDTH)
                 .min_by(|&a, &b| distances[a].total_cmp(&distances[b]))
                 .unwrap_or(0);
@@ -197,13 +213,11 @@ impl Tree {
         group
     }
 
-    /// How far a box may seem to be from a query and still hold a point within the root of
-    /// `limit_squared` of it, squared.
+    /// A squared distance in the boxes' frame and its root, or a little more.
     #[inline(always)]
-    pub(super) fn reach_squared(&self, in_frame: Vec3, limit_squared: f64) -> f32 {
-        let slack = SLACK * (1.0 + in_frame.length());
-        let reach = (limit_squared.sqrt() * self.scale) as f32 * (1.0 + SLACK) + slack;
-        reach * reach
+    pub(super) fn reach(&self, limit_squared: f64) -> (f32, f32) {
+        let reach = (limit_squared.sqrt() * self.scale) as f32 * (1.0 + SLACK);
+        (reach * reach, reach)
     }
 
     #[inline(always)]
@@ -242,15 +256,22 @@ impl Tree {
         &self.near[leaf]
     }
 
-    /// Whether any query may have a point of `leaf` within its reach.
+    /// The boxes that hold a leaf's, and its lane there.
     #[inline(always)]
-    pub(super) fn any_within<S: Simd>(
-        &self,
-        leaf: usize,
-        queries: &[Lanes; 3],
-        reach_squared: &Lanes,
-    ) -> bool {
-        self.levels[0][leaf / WIDTH].any_within::<S>(leaf % WIDTH, queries, reach_squared)
+    pub(super) fn leaf_box(&self, leaf: usize) -> (&Boxes, usize) {
+        (&self.levels[0][leaf / WIDTH], leaf % WIDTH)
+    }
+
+    /// Whether a leaf is so much larger than most that single precision blurs what lies in it.
+    #[inline(always)]
+    pub(super) fn is_coarse(&self, leaf: usize) -> bool {
+        self.near[leaf].radius > self.coarse
+    }
+
+    /// Length in the boxes' frame of what is one long.
+    #[inline(always)]
+    pub(super) fn scale(&self) -> f64 {
+        self.scale
     }
 
     /// The positions of a leaf's points in the tree's order.
@@ -270,6 +291,8 @@ struct Pieces<'a> {
     leaves: &'a mut [Leaf],
     near: &'a mut [Near],
     boxes: &'a mut [Boxes],
+    /// The extent of each group's points.
+    bounds: &'a mut [(DVec3, DVec3)],
 }
 
 impl Pieces<'_> {
@@ -284,18 +307,21 @@ impl Pieces<'_> {
         let (leaves, other_leaves) = self.leaves.split_at_mut(half * WIDTH);
         let (near, other_near) = self.near.split_at_mut(half * WIDTH);
         let (boxes, other_boxes) = self.boxes.split_at_mut(half);
+        let (bounds, other_bounds) = self.bounds.split_at_mut(half);
         let (one, other) = (
             Pieces {
                 numbers,
                 leaves,
                 near,
                 boxes,
+                bounds,
             },
             Pieces {
                 numbers: other_numbers,
                 leaves: other_leaves,
                 near: other_near,
                 boxes: other_boxes,
+                bounds: other_bounds,
             },
         );
         join(|| one.each(work), || other.each(work));
@@ -307,4 +333,15 @@ fn extent(points: &[DVec3]) -> (DVec3, DVec3) {
     points
         .iter()
         .fold((first, first), |(low, high), &p| (low.min(p), high.max(p)))
+}
+
+/// The extent of several together.
+fn union(extents: &[(DVec3, DVec3)]) -> (DVec3, DVec3) {
+    extents
+        .iter()
+        .fold(extents[0], |a, b| (a.0.min(b.0), a.1.max(b.1)))
+}
+
+fn middle((low, high): (DVec3, DVec3)) -> DVec3 {
+    0.5 * (low + high)
 }

@@ -1,6 +1,5 @@
 //! From box to box, down to the leaves within reach.
 
-use glam::Vec3;
 use pulp::Simd;
 
 use super::boxes::WIDTH;
@@ -9,7 +8,7 @@ use super::tree::Tree;
 /// A walk from box to box, down to the leaves. No iterator and without closures, since only what is
 /// inlined is built for each kind of vector instructions.
 pub(super) struct Walk {
-    from: [f32; 3],
+    from: [f64; 3],
     /// Distances, levels and numbers of the groups to go into.
     stack: [(f32, u32, u32); 12 * WIDTH],
     height: usize,
@@ -35,16 +34,20 @@ impl Walk {
 
     /// Begins again, as [`Tree::walk`].
     #[inline(always)]
-    pub(super) fn begin(&mut self, tree: &Tree, from: Vec3) {
-        self.from = from.to_array();
+    pub(super) fn begin(&mut self, tree: &Tree, from: [f64; 3]) {
+        self.from = from;
         self.stack[0] = (0.0, tree.top(), 0);
         (self.height, self.near) = (1, 0);
     }
 
-    /// The next leaf within the root of `reach_squared`, which must not grow from call to call, and the
-    /// squared distance of its box.
+    /// The next leaf within a reach, and the squared distance of its box. The reach is given squared and
+    /// as a bound on its root; it must not grow from call to call.
     #[inline(always)]
-    pub(super) fn next<S: Simd>(&mut self, tree: &Tree, reach_squared: f32) -> Option<(usize, f32)> {
+    pub(super) fn next<S: Simd>(
+        &mut self,
+        tree: &Tree,
+        (reach_squared, reach): (f32, f32),
+    ) -> Option<(usize, f32)> {
         loop {
             while self.near != 0 {
                 let i = self.near.trailing_zeros() as usize;
@@ -64,7 +67,7 @@ impl Walk {
                 continue;
             }
             let (level, group) = (level as usize, group as usize);
-            let distances = tree.boxes(level)[group].distances_squared::<S>(self.from);
+            let distances = tree.boxes(level)[group].distances_squared::<S>(self.from, reach);
             // Bit after bit and then all at once, as vectors can.
             let mut bits = [0u32; WIDTH];
             for i in 0..WIDTH {
