@@ -28,16 +28,15 @@ fn quantized(seed: u64, count: usize, steps: f64) -> Vec<DVec3> {
 fn awkward(kind: usize, seed: u64, count: usize, offset: f64) -> Vec<DVec3> {
     let even = scattered(seed, count);
     let shape = |p: DVec3| match kind {
-        0 => p,
+        // A few strays far away from a cloud that is small beside that; small clumps far apart.
+        8 if p.x > 0.9 => p * 1e6,
+        0 | 8 => p,
         1 => (p * 3.0).round() / 3.0,
         2 => DVec3::new(p.x, p.x, -p.x),
         3 => DVec3::new(p.x, p.y, 0.0),
         4 => DVec3::new(1.0, p.y, 0.5 * p.x + p.y),
         5 => p.round() + 1e-6 * p,
         6 => p.normalize(),
-        // A few strays far away from a cloud that is small beside that; small clumps far apart.
-        8 if p.x > 0.9 => p * 1e6,
-        8 => p,
         9 => p.signum() + 1e-4 * p,
         _ => {
             if p.x < 0.5 {
