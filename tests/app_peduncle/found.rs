@@ -19,7 +19,7 @@ fn a_range_of_hues_is_previewed_and_an_empty_one_is_told() {
         to_deg: 160.0,
     };
     request.peduncle = PeduncleChoice::Hue(range);
-    set(&mut app, request.clone());
+    set(&mut app, |now| *now = request.clone());
     let hues = app.state().peduncle.hues.clone().expect("counted");
     assert_eq!(hues.counts.iter().sum::<usize>() + hues.gray, cloud.len());
     assert_eq!(highlighted(&app), 0, "nobody asked for it");
@@ -34,7 +34,7 @@ fn a_range_of_hues_is_previewed_and_an_empty_one_is_told() {
         from_deg: 280.0,
         to_deg: 281.0,
     });
-    set(&mut app, request);
+    set(&mut app, |now| *now = request);
     assert_eq!(highlighted(&app), 0);
     let walked = app.state().walked.as_ref().expect("the cloud is still there");
     let problem = walked.fruit.peduncle_problem.as_ref().expect("it is told");
@@ -115,7 +115,7 @@ fn with_and_without_the_peduncle_stand_side_by_side() {
     for (without_peduncle, errors) in [(false, beside.with), (true, beside.without)] {
         let mut request = app.state().settings.request.clone();
         request.without_peduncle = without_peduncle;
-        set(&mut app, request);
+        set(&mut app, |now| *now = request);
         let state = app.state();
         let axis = state.analysis().and_then(|a| a.axis.clone()).expect("an axis");
         let expected: Vec<_> = state
@@ -129,7 +129,7 @@ fn with_and_without_the_peduncle_stand_side_by_side() {
     }
     let mut request = app.state().settings.request.clone();
     request.params.u = 9;
-    set(&mut app, request);
+    set(&mut app, |now| *now = request);
     assert!(app.state().peduncle.beside.is_some(), "computed again by itself");
     ask(&mut app, PeduncleCommand::Compare(false));
     assert!(app.state().peduncle.beside.is_none());

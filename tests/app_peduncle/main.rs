@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use axiscope::app::peduncle::Question;
 use axiscope::app::{App, Command, PeduncleCommand, Session, Tool, command_line};
-use axiscope::evaluate::{Request, TruthChoice, peduncle_disagreement_deg};
+use axiscope::evaluate::{TruthChoice, peduncle_disagreement_deg};
 use axiscope::geometry::{Cloud, PointSet};
 use axiscope::io::ply::{WriteOptions, write};
 use axiscope::io::{PeduncleChoice, PickedPoints, read_cloud};
@@ -19,7 +19,7 @@ use axiscope::method::AxisSource;
 use axiscope::reference::{HueRange, Peduncle, PeduncleSource, axis_error_rad};
 use axiscope::render::Viewport;
 use axiscope::view::{Coloring, PEDUNCLE_MARK, ViewPreset};
-use driving::{act, app, asset, settle, with_sample};
+use driving::{act, app, asset, set, settle, with_sample};
 use glam::DVec2;
 use tempfile::TempDir;
 
@@ -122,15 +122,4 @@ fn highlighted(app: &App) -> usize {
     let scene = app.state().drawn_scene().expect("drawn");
     let colors = scene.points[0].colors.iter();
     colors.filter(|c| **c == PEDUNCLE_MARK).count()
-}
-
-fn set(app: &mut App, request: Request) {
-    let request = Box::new(request);
-    act(
-        app,
-        Command::Set {
-            request,
-            gesture: None,
-        },
-    );
 }

@@ -206,7 +206,7 @@ fn a_voxel_grid_highlights_what_stands_for_picked_points() {
     let mut app = with_sample();
     let mut request = app.state().settings.request.clone();
     request.params.filters.voxel_cm = Some(0.3);
-    set(&mut app, request);
+    set(&mut app, |now| *now = request);
     act(&mut app, Command::Use(Tool::Lasso));
     let shown = app.state().shown().expect("points").clone();
     let in_file = shown.in_file.as_ref().expect("they stand for others");
