@@ -6,6 +6,7 @@ use glam::DVec3;
 use pulp::Scalar;
 
 use super::tree::LEAF;
+use super::walk::Walk;
 use super::{Neighbor, Neighbors};
 
 impl Neighbors {
@@ -13,7 +14,7 @@ impl Neighbors {
     /// there are fewer), nearest first, of those as near the one of the lowest index first. The last
     /// place may hold more points than are still wanted.
     pub fn nearest_places(&self, query: DVec3, count: NonZeroUsize) -> Vec<Neighbor> {
-        let start = self.tree.descend(query);
+        let start = self.tree.descend(self.tree.in_frame(query).to_array());
         let mut found = Vec::new();
         self.gather(query, count, start, &mut found);
         self.put_in_order(count, &mut found);
@@ -58,9 +59,10 @@ impl Neighbors {
         }
         let (_, &mut (limit, _), _) = found.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
         found.clear();
-        let reach = self.tree.reach(limit);
-        let mut walk = self.tree.walk(self.tree.in_frame(query).to_array());
-        while let Some((leaf, _)) = walk.next::<Scalar>(&self.tree, reach) {
+        let (from, reach) = self.tree.single(self.tree.in_frame(query).to_array(), limit);
+        let mut walk = Walk::new();
+        walk.begin(&self.tree, from);
+        while let Some((leaf, _)) = walk.next::<Scalar, false>(&self.tree, reach) {
             self.collect(leaf, query, limit, found);
         }
         if found.len() > count {

@@ -1,6 +1,6 @@
 //! One number a query of a block, side by side, so that vector instructions take many at once.
 
-use pulp::Simd;
+use pulp::{Simd, WithSimd};
 
 /// Queries in a block: twice what the widest vectors hold of single precision.
 pub(crate) const BLOCK: usize = 32;
@@ -59,4 +59,12 @@ pub(super) struct Looks(pub(super) [u32; BLOCK]);
 
 impl Looks {
     pub(super) const FIRST: Self = Self([0; BLOCK]);
+}
+
+/// Runs what is seldom wanted: built for the same vector instructions, but where it does not crowd what
+/// is wanted often.
+#[cold]
+#[inline(never)]
+pub(super) fn seldom<S: Simd, W: WithSimd>(simd: S, work: W) -> W::Output {
+    simd.vectorize(work)
 }

@@ -34,6 +34,7 @@ pub(crate) use lanes::BLOCK;
 use places::distinct_places;
 pub(crate) use together::{Nearest, Together};
 use tree::{LEAF, Tree};
+use walk::Walk;
 
 /// One place in space and the points that lie exactly there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,7 +132,8 @@ impl Neighbors {
     /// The place nearest to `query`, which must be finite; of several as near the one of the lowest
     /// index.
     pub fn nearest(&self, query: DVec3) -> Neighbor {
-        let (distance_squared, position) = self.nearest_from::<Scalar>(self.tree.descend(query), query);
+        let start = self.tree.descend(self.tree.in_frame(query).to_array());
+        let (distance_squared, position) = self.nearest_from::<Scalar>(start, query);
         self.neighbor(position, distance_squared)
     }
 
@@ -141,13 +143,27 @@ impl Neighbors {
         // The first place there stands in where every distance overflows.
         let mut best = (f64::INFINITY, start * LEAF);
         self.look_into(start, query, &mut best);
-        let mut reach = self.tree.reach(best.0);
-        let mut walk = self.tree.walk(self.tree.in_frame(query).to_array());
-        while let Some((leaf, _)) = walk.next::<S>(&self.tree, reach) {
+        let (from, mut reach) = self.tree.single(self.tree.in_frame(query).to_array(), best.0);
+        let mut walk = Walk::new();
+        walk.begin(&self.tree, from);
+        while let Some((leaf, _)) = walk.next::<S, true>(&self.tree, reach) {
             if leaf != start {
                 self.look_into(leaf, query, &mut best);
-                reach = self.tree.reach(best.0);
+                reach = self.tree.reach(from.reference, best.0);
             }
+        }
+        best
+    }
+
+    /// The same where it is known to be in one of `leaves`.
+    #[inline(always)]
+    fn nearest_in(&self, leaves: impl Iterator<Item = usize>, query: DVec3) -> (f64, usize) {
+        let mut best = (f64::INFINITY, 0);
+        for leaf in leaves {
+            if best.0 == f64::INFINITY {
+                best.1 = leaf * LEAF;
+            }
+            self.look_into(leaf, query, &mut best);
         }
         best
     }

@@ -6,9 +6,9 @@ use std::ops::Range;
 use glam::DVec3;
 use pulp::Scalar;
 
-use super::boxes::{Boxes, SLACK, WIDTH};
+use super::boxes::{Boxes, FAR_OFF_SQUARED, SLACK, WIDTH};
 use super::order::in_order;
-use super::walk::Walk;
+use super::walk::{Reach, Standpoint};
 use crate::geometry::parallel::{join, map_pieces};
 
 /// Points in a leaf.
@@ -74,6 +74,10 @@ pub(super) struct Tree {
     scale: f64,
     /// The radius beyond which a leaf is coarse.
     coarse: f32,
+    /// The same as to small leaves rather than most.
+    apart: f32,
+    /// The squared distance beside which small leaves are far off.
+    far_off: f64,
 }
 
 impl Tree {
@@ -106,18 +110,23 @@ impl Tree {
             }
             let local = &local[..piece.numbers.len()];
             piece.bounds[0] = extent(local);
-            piece.boxes[0] = Boxes::around(middle(piece.bounds[0]));
-            for (lane, numbers) in piece.numbers.chunks(LEAF).enumerate() {
+            let mut own = [DVec3::ZERO; WIDTH];
+            let mut count = 0;
+            for numbers in piece.numbers.chunks(LEAF) {
                 for (i, &number) in numbers.iter().enumerate() {
                     for e in 0..3 {
-                        piece.leaves[lane][e][i] = points[number as usize][e];
+                        piece.leaves[count][e][i] = points[number as usize][e];
                     }
                 }
-                let local = &local[lane * LEAF..][..numbers.len()];
-                piece.near[lane] = Near::new(local);
-                let own = DVec3::from_array(piece.near[lane].center);
-                piece.boxes[0].set(lane, own, local.iter().copied());
+                piece.near[count] = Near::new(&local[count * LEAF..][..numbers.len()]);
+                own[count] = DVec3::from_array(piece.near[count].center);
+                count += 1;
             }
+            piece.boxes[0] = Boxes::among(&own[..count]);
+            for (lane, local) in local.chunks(LEAF).enumerate() {
+                piece.boxes[0].set(lane, own[lane], local.iter().copied());
+            }
+            piece.boxes[0].finish(count);
         });
         let mut levels = vec![boxes];
         let mut size = LEAF;
@@ -126,22 +135,32 @@ impl Tree {
             // One by one where there are few.
             let piece = if bounds.len() > 16 * WIDTH { WIDTH } else { 1 };
             let above: Vec<(DVec3, DVec3)> = bounds.chunks(WIDTH).map(union).collect();
+            let below = bounds.len();
             let part = |range: Range<usize>| {
-                let middle = middle(above[range.start / WIDTH]);
-                let mut boxes = Boxes::around(middle);
+                let group = range.start / WIDTH * WIDTH;
+                let own = bounds[group..(group + WIDTH).min(below)]
+                    .iter()
+                    .map(|&b| middle(b));
+                let mut boxes = Boxes::among(&own.collect::<Vec<DVec3>>());
                 for (lane, number) in range.enumerate() {
+                    let own = middle(bounds[number]);
                     let numbers = &order[number * size..((number + 1) * size).min(order.len())];
-                    boxes.set(lane, middle, numbers.iter().map(|&number| in_frame(number)));
+                    boxes.set(lane, own, numbers.iter().map(|&number| in_frame(number)));
                 }
                 boxes
             };
             let parts = map_pieces(bounds.len(), piece, &(), part).unwrap_or_default();
-            let whole = |parts: &[Boxes]| Boxes::together(parts, piece);
-            levels.push(parts.chunks(WIDTH / piece).map(whole).collect());
+            let whole = |(group, parts): (usize, &[Boxes])| {
+                let mut boxes = Boxes::together(parts, piece);
+                boxes.finish((below - group * WIDTH).min(WIDTH));
+                boxes
+            };
+            levels.push(parts.chunks(WIDTH / piece).enumerate().map(whole).collect());
             bounds = above;
         }
         let mut radii: Vec<f32> = near.iter().map(|near| near.radius).collect();
         let (_, &mut typical, _) = radii.select_nth_unstable_by(count / 2, f32::total_cmp);
+        let (_, &mut small, _) = radii.select_nth_unstable_by(count / 16, f32::total_cmp);
         let tree = Self {
             leaves,
             near,
@@ -150,6 +169,8 @@ impl Tree {
             origin,
             scale,
             coarse: COARSE * typical,
+            apart: COARSE * small,
+            far_off: FAR_OFF_SQUARED * f64::from(small) * f64::from(small),
         };
         (tree, order)
     }
@@ -164,15 +185,6 @@ impl Tree {
             sum[i] = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         }
         sum
-    }
-
-    /// Walks over all leaves that may hold a point within a reach of `from`, which is in
-    /// the boxes' frame, and perhaps some more.
-    #[inline(always)]
-    pub(super) fn walk(&self, from: [f64; 3]) -> Walk {
-        let mut walk = Walk::new();
-        walk.begin(self, from);
-        walk
     }
 
     /// The boxes of a level by sixteens, from those around leaves up to a single group.
@@ -193,31 +205,47 @@ impl Tree {
         self.leaves.len()
     }
 
-    /// A leaf near `q`, down the nearest boxes.
-    pub(super) fn descend(&self, q: DVec3) -> usize {
-        let in_frame = self.in_frame(q).to_array();
+    /// A leaf near `q`, which is in the boxes' frame, down the nearest boxes.
+    pub(super) fn descend(&self, q: [f64; 3]) -> usize {
         let mut group = 0;
         for (level, boxes) in self.levels.iter().enumerate().rev() {
-            let distances = boxes[group].distances_squared::<Scalar>(in_frame, 0.0);
-            let nearest = (0..WIDTH)
-                .min_by(|&a, &b| distances[a].total_cmp(&distances[b]))
-                .unwrap_or(0);
             let below = if level > 0 {
                 self.levels[level - 1].len()
             } else {
                 self.leaves.len()
             };
-            // Far beyond single precision all boxes are as far as no box.
-            group = (group * WIDTH + nearest).min(below - 1);
+            let promises = boxes[group].promises::<Scalar>(q);
+            let lanes = 0..WIDTH.min(below - group * WIDTH);
+            let nearest = lanes.min_by(|&a, &b| promises[a].total_cmp(&promises[b]));
+            group = group * WIDTH + nearest.unwrap_or(0);
         }
         group
     }
 
-    /// A squared distance in the boxes' frame and its root, or a little more.
+    /// What walks of a single query begin with, `q` in the boxes' frame, where a point was found that
+    /// is as far as `limit_squared`, and how far to walk to find all that is as near.
     #[inline(always)]
-    pub(super) fn reach(&self, limit_squared: f64) -> (f32, f32) {
-        let reach = (limit_squared.sqrt() * self.scale) as f32 * (1.0 + SLACK);
-        (reach * reach, reach)
+    pub(super) fn single(&self, q: [f64; 3], limit_squared: f64) -> (Standpoint, Reach) {
+        let from = Standpoint {
+            center: q,
+            radius: 0.0,
+            toward: q,
+            reference: limit_squared * self.scale * self.scale,
+        };
+        (from, self.reach(from.reference, limit_squared))
+    }
+
+    /// How far to walk on to find all that is as near as `limit_squared`.
+    #[inline(always)]
+    pub(super) fn reach(&self, reference: f64, limit_squared: f64) -> Reach {
+        let squared = limit_squared * self.scale * self.scale;
+        let excess = (squared - reference) as f32;
+        let excess = excess + SLACK * excess.abs();
+        Reach {
+            excess,
+            root: squared.sqrt() as f32 * (1.0 + SLACK),
+            excess_toward: excess,
+        }
     }
 
     #[inline(always)]
@@ -246,6 +274,16 @@ impl Tree {
         d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
     }
 
+    /// The point of a leaf that lies nearest to `from`, both in the boxes' frame, or nearly so.
+    pub(super) fn nearest_in_leaf(&self, leaf: usize, from: [f64; 3]) -> [f64; 3] {
+        let from = DVec3::from_array(from);
+        let places = self
+            .positions(leaf)
+            .map(|place| self.in_frame(self.place(leaf, place % LEAF)));
+        let nearest = places.min_by(|a, b| (a.distance_squared(from)).total_cmp(&b.distance_squared(from)));
+        nearest.unwrap_or(from).to_array()
+    }
+
     #[inline(always)]
     pub(super) fn leaf_center(&self, leaf: usize) -> [f64; 3] {
         self.near[leaf].center
@@ -260,6 +298,18 @@ impl Tree {
     #[inline(always)]
     pub(super) fn leaf_box(&self, leaf: usize) -> (&Boxes, usize) {
         (&self.levels[0][leaf / WIDTH], leaf % WIDTH)
+    }
+
+    /// Whether some leaves are far off at a distance, given squared.
+    #[inline(always)]
+    pub(super) fn is_far_off(&self, squared: f64) -> bool {
+        !(squared < self.far_off)
+    }
+
+    /// The radius beyond which queries may lie in groups far apart, as the points of some leaves do.
+    #[inline(always)]
+    pub(super) fn apart(&self) -> f32 {
+        self.apart
     }
 
     /// Whether a leaf is so much larger than most that single precision blurs what lies in it.

@@ -1,15 +1,39 @@
-//! From box to box, down to the leaves within reach.
+//! Standpoint box to box, down to the leaves within reach.
 
 use pulp::Simd;
 
-use super::boxes::WIDTH;
+use super::boxes::{Boxes, SLACK, WIDTH, times_plus};
 use super::tree::Tree;
+
+/// Queries that walk together, in the boxes' frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Standpoint {
+    /// The point that they lie around, and at least how far each of them lies from it.
+    pub(super) center: [f64; 3],
+    pub(super) radius: f32,
+    /// A point near what they have found, c, and |c|², c seen from the center: what squared distances
+    /// are compared with.
+    pub(super) toward: [f64; 3],
+    pub(super) reference: f64,
+}
+
+/// How far to walk: a box is out of reach once either bound says so.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reach {
+    /// What squared distances from the center may exceed the reference by, and at least the root of
+    /// the largest.
+    pub(super) excess: f32,
+    pub(super) root: f32,
+    /// What |q - p|² of any query q may exceed |q - c|² by. With p and c seen from the center that is
+    /// what |p|² exceeds |c|² by, but for 2 q·(p - c), which is little where p is close to c.
+    pub(super) excess_toward: f32,
+}
 
 /// A walk from box to box, down to the leaves. No iterator and without closures, since only what is
 /// inlined is built for each kind of vector instructions.
 pub(super) struct Walk {
-    from: [f64; 3],
-    /// Distances, levels and numbers of the groups to go into.
+    from: Standpoint,
+    /// Excesses over the reference, levels and numbers of the groups to go into.
     stack: [(f32, u32, u32); 12 * WIDTH],
     height: usize,
     /// Which leaves of `group` are still to be visited, a bit each, and how far all of them are.
@@ -23,7 +47,12 @@ impl Walk {
     #[inline(always)]
     pub(super) fn new() -> Self {
         Self {
-            from: [0.0; 3],
+            from: Standpoint {
+                center: [0.0; 3],
+                radius: 0.0,
+                toward: [0.0; 3],
+                reference: 0.0,
+            },
             stack: [(0.0, 0, 0); 12 * WIDTH],
             height: 0,
             near: 0,
@@ -32,21 +61,22 @@ impl Walk {
         }
     }
 
-    /// Begins again, as [`Tree::walk`].
+    /// Begins again: over all leaves that may hold a point within reach, and perhaps some more.
     #[inline(always)]
-    pub(super) fn begin(&mut self, tree: &Tree, from: [f64; 3]) {
+    pub(super) fn begin(&mut self, tree: &Tree, from: Standpoint) {
         self.from = from;
-        self.stack[0] = (0.0, tree.top(), 0);
+        self.stack[0] = (f32::NEG_INFINITY, tree.top(), 0);
         (self.height, self.near) = (1, 0);
     }
 
-    /// The next leaf within a reach, and the squared distance of its box. The reach is given squared and
-    /// as a bound on its root; it must not grow from call to call.
+    /// The next leaf within a reach, and what the squared distance of its box exceeds the reference by.
+    /// The reach must not grow from call to call. Where boxes may be small beside their distance,
+    /// `FAR_OFF` tells them apart.
     #[inline(always)]
-    pub(super) fn next<S: Simd>(
+    pub(super) fn next<S: Simd, const FAR_OFF: bool>(
         &mut self,
         tree: &Tree,
-        (reach_squared, reach): (f32, f32),
+        reach: Reach,
     ) -> Option<(usize, f32)> {
         loop {
             while self.near != 0 {
@@ -54,7 +84,7 @@ impl Walk {
                 self.near &= self.near - 1;
                 let leaf = self.group * WIDTH + i;
                 // Where rounding left no number, better look.
-                if !(self.distances[i] > reach_squared) && leaf < tree.leaves() {
+                if !(self.distances[i] > reach.excess) && leaf < tree.leaves() {
                     return Some((leaf, self.distances[i]));
                 }
             }
@@ -63,15 +93,25 @@ impl Walk {
             }
             self.height -= 1;
             let (distance, level, group) = self.stack[self.height];
-            if distance > reach_squared {
+            if distance > reach.excess {
                 continue;
             }
             let (level, group) = (level as usize, group as usize);
-            let distances = tree.boxes(level)[group].distances_squared::<S>(self.from, reach);
+            let boxes = &tree.boxes(level)[group];
+            let (distances, limits);
+            if FAR_OFF && boxes.is_far_off(self.from.center) {
+                (distances, limits) = self.far_off::<S>(boxes, reach);
+            } else {
+                let Standpoint {
+                    center, reference, ..
+                } = self.from;
+                distances = boxes.excesses_close_by::<S>(center, reference, reach.root);
+                limits = [reach.excess; WIDTH];
+            }
             // Bit after bit and then all at once, as vectors can.
             let mut bits = [0u32; WIDTH];
             for i in 0..WIDTH {
-                bits[i] = if distances[i] > reach_squared { 0 } else { 1 << i };
+                bits[i] = if distances[i] > limits[i] { 0 } else { 1 << i };
             }
             let mut near = bits.iter().fold(0, |all, bit| all | bit);
             if level == 0 {
@@ -88,5 +128,19 @@ impl Walk {
                 }
             }
         }
+    }
+
+    /// How far boxes are, most of them small beside their distance, and how far they may be.
+    #[inline(always)]
+    fn far_off<S: Simd>(&self, boxes: &Boxes, reach: Reach) -> ([f32; WIDTH], [f32; WIDTH]) {
+        let from = &self.from;
+        let distances = boxes.excesses_far_off::<S>(from.center, from.reference, reach.root);
+        let mut limits = boxes.spans::<S>(from.toward);
+        let sideways = 2.0 * from.radius * (1.0 + SLACK);
+        for i in 0..WIDTH {
+            let limit = times_plus::<S>(sideways, limits[i], reach.excess_toward);
+            limits[i] = if limit < reach.excess { limit } else { reach.excess };
+        }
+        (distances, limits)
     }
 }

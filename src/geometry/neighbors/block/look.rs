@@ -1,9 +1,9 @@
 //! Looking into a leaf, with a bound on what rounding may have changed.
 
-use pulp::Simd;
+use pulp::{Simd, WithSimd};
 
-use super::super::boxes::SLACK;
-use super::super::lanes::{BLOCK, Lanes};
+use super::super::boxes::{DOUBLE_ROUNDING, SLACK, UNDERFLOW};
+use super::super::lanes::{BLOCK, Lanes, seldom};
 use super::super::tree::{LEAF, Tree};
 use super::{Block, Column, Looked};
 
@@ -13,18 +13,15 @@ use super::{Block, Column, Looked};
 const LEAF_ROUNDING: f32 = 1.0 / (1 << 19) as f32;
 /// The same for where the leaf is, seen from the queries' middle, in units of its distance times the
 /// farthest query's: some 20 roundings as well.
-const PLACE_ROUNDING: f32 = 1.0 / (1 << 19) as f32;
+pub(super) const PLACE_ROUNDING: f32 = 1.0 / (1 << 19) as f32;
 /// The same for sums of what was rounded before, in units of their size.
 pub(super) const SUM_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
-/// The same for what was computed in double precision, in units of (w + r) (w + 2).
-const DOUBLE_ROUNDING: f32 = 1.0 / (1u64 << 48) as f32;
-/// More than is lost where products fall below single precision's range.
-const UNDERFLOW: f32 = 1e-37;
+
 impl Block {
     /// Looks for nearer points in a leaf, in which it must not have looked before. `queries` are those
-    /// that the block has begun with.
+    /// that the block has begun with. What `KEEP` says is kept for [`Block::candidates`].
     #[inline(always)]
-    pub(in super::super) fn look_into<S: Simd>(
+    pub(in super::super) fn look_into<S: Simd, const KEEP: bool>(
         &mut self,
         simd: S,
         tree: &Tree,
@@ -32,15 +29,41 @@ impl Block {
         leaf: usize,
     ) {
         if tree.is_coarse(leaf) {
-            self.look_exactly(simd, tree, queries, leaf);
+            let block = self;
+            let look = LookExactly::<KEEP> {
+                block,
+                tree,
+                queries,
+                leaf,
+            };
+            seldom(simd, look);
         } else {
-            self.look_closely(simd, tree, leaf);
+            self.look_closely::<S, KEEP>(simd, tree, leaf);
         }
+    }
+
+    /// Looks into all leaves once more, so that the candidates are known.
+    #[inline(always)]
+    pub(in super::super) fn look_again<S: Simd>(&mut self, simd: S, tree: &Tree, queries: &[Column; 3]) {
+        let mut leaves = std::mem::take(&mut self.leaves);
+        leaves.clear();
+        leaves.extend(self.looked.iter().map(|looked| looked.leaf));
+        self.find_nothing();
+        for &leaf in &leaves {
+            self.look_into::<S, true>(simd, tree, queries, leaf as usize);
+        }
+        self.leaves = leaves;
     }
 
     /// Looks into a leaf that is so large that single precision would blur all distances.
     #[inline(always)]
-    fn look_exactly<S: Simd>(&mut self, simd: S, tree: &Tree, queries: &[Column; 3], leaf: usize) {
+    fn look_exactly<S: Simd, const KEEP: bool>(
+        &mut self,
+        simd: S,
+        tree: &Tree,
+        queries: &[Column; 3],
+        leaf: usize,
+    ) {
         let [x, y, z] = queries;
         let mut nearest = [f64::INFINITY; BLOCK];
         for place in tree.positions(leaf) {
@@ -52,8 +75,8 @@ impl Block {
             }
         }
         let scale_squared = tree.scale() * tree.scale();
-        let look = self.looked.len() as u32;
-        let mut largest = Lanes::ZERO;
+        let size = (self.reference as f32).sqrt() + self.radius;
+        let (mut uppers, mut lowers) = (Lanes::ZERO, Lanes::ZERO);
         for i in 0..BLOCK {
             let mut own = self.reference;
             for e in 0..3 {
@@ -62,38 +85,31 @@ impl Block {
             }
             let squared = nearest[i] * scale_squared;
             let (more, squared) = ((squared - own) as f32, squared as f32);
-            let before = self.least.0[i];
-            let nearer = more < before;
-            // What is farther by far must not blur what is near; it only must not seem farther than it is.
-            let second = if nearer {
-                before
-            } else {
-                more - SUM_ROUNDING * squared
-            };
-            largest.0[i] = if nearer { squared } else { 0.0 };
-            self.least.0[i] = if nearer { more } else { before };
-            self.look.0[i] = if nearer { look } else { self.look.0[i] };
-            self.second.0[i] = if second < self.second.0[i] {
-                second
-            } else {
-                self.second.0[i]
-            };
+            let distance = squared.sqrt() + size;
+            let rounding = SLACK * more.abs()
+                + DOUBLE_ROUNDING * distance * (distance + 2.0)
+                + PLACE_ROUNDING * self.radius * distance * 0.25
+                + UNDERFLOW;
+            uppers.0[i] = more + rounding;
+            lowers.0[i] = more - rounding;
         }
-        let own = self.radius * self.radius + self.reference as f32;
-        let rounding = SUM_ROUNDING * (largest.greatest(simd) + own) + UNDERFLOW;
-        if !(rounding <= self.rounding) {
-            self.rounding = rounding;
+        for part in 0..uppers.parts::<S>().len() {
+            self.take::<S, KEEP>(simd, part, uppers.parts::<S>()[part], lowers.parts::<S>()[part]);
+        }
+        if KEEP {
+            self.lowers.push(self.latest);
         }
         self.looked.push(Looked {
             leaf: leaf as u32,
             center: [0.0; 3],
             // Which of its points it is, is asked again.
             ties: f32::INFINITY,
+            blurred: false,
         });
     }
 
     #[inline(always)]
-    fn look_closely<S: Simd>(&mut self, simd: S, tree: &Tree, leaf: usize) {
+    fn look_closely<S: Simd, const KEEP: bool>(&mut self, simd: S, tree: &Tree, leaf: usize) {
         let center = tree.leaf_center(leaf);
         let near = tree.leaf_near(leaf);
         // No closures: they would not be built for these instructions.
@@ -104,23 +120,28 @@ impl Block {
         let squared = exact[0] * exact[0] + exact[1] * exact[1] + exact[2] * exact[2];
         let farther = (squared - self.reference) as f32;
         let c = [exact[0] as f32, exact[1] as f32, exact[2] as f32];
-        let look = simd.splat_u32s(self.looked.len() as u32);
+        // For all queries at once, so as for the farthest of them.
+        let distance = (squared as f32).sqrt() * (1.0 + SLACK);
+        let (place, r) = (self.radius * distance, near.radius);
+        let size = distance + self.radius;
+        let within = LEAF_ROUNDING * r * (size + r);
+        let double = DOUBLE_ROUNDING * (size + r) * (size + 2.0);
+        let beside = within
+            + PLACE_ROUNDING * place
+            + SUM_ROUNDING * (2.0 * place + r * (2.0 * size + r))
+            + double
+            + UNDERFLOW;
+        let blur = SUM_ROUNDING * farther.abs();
+        let rounding = simd.splat_f32s(beside + blur);
         let (x, y, z) = (&near.minus_twice[0], &near.minus_twice[1], &near.minus_twice[2]);
-        let local = [
-            self.local[0].parts::<S>(),
-            self.local[1].parts::<S>(),
-            self.local[2].parts::<S>(),
-        ];
-        let looks = S::as_mut_simd_u32s(&mut self.look.0).0;
-        let (leasts, seconds) = (self.least.parts_mut::<S>(), self.second.parts_mut::<S>());
-        for from in (0..leasts.len()).step_by(2) {
+        for from in (0..self.upper.parts::<S>().len()).step_by(2) {
             // Two vectors of queries at a time, since each comparison waits for the one before it.
             let mut w = [[simd.splat_f32s(0.0); 3]; 2];
             let mut base = [simd.splat_f32s(farther); 2];
             let mut least = [simd.splat_f32s(f32::INFINITY); 2];
             for k in 0..2 {
                 for e in 0..3 {
-                    let q = local[e][from + k];
+                    let q = self.local[e].parts::<S>()[from + k];
                     base[k] = simd.mul_add_e_f32s(q, simd.splat_f32s(-2.0 * c[e]), base[k]);
                     w[k][e] = simd.sub_f32s(q, simd.splat_f32s(c[e]));
                 }
@@ -140,32 +161,56 @@ impl Block {
                 }
             }
             for k in 0..2 {
-                let (squared, before) = (simd.add_f32s(base[k], least[k]), leasts[from + k]);
-                let nearer = simd.less_than_f32s(squared, before);
-                looks[from + k] = simd.select_u32s(nearer, look, looks[from + k]);
-                leasts[from + k] = simd.min_f32s(squared, before);
-                let farther = simd.max_f32s(squared, before);
-                seconds[from + k] = simd.min_f32s(farther, seconds[from + k]);
+                let squared = simd.add_f32s(base[k], least[k]);
+                let (upper, lower) = (simd.add_f32s(squared, rounding), simd.sub_f32s(squared, rounding));
+                self.take::<S, KEEP>(simd, from + k, upper, lower);
             }
         }
-        // For all queries at once, so as for the farthest of them.
-        let distance = (squared as f32).sqrt() * (1.0 + SLACK);
-        let (place, r) = (self.radius * distance, near.radius);
-        let size = distance + self.radius;
-        let within = LEAF_ROUNDING * r * (size + r);
-        let double = DOUBLE_ROUNDING * (size + r) * (size + 2.0);
-        let rounding = within
-            + PLACE_ROUNDING * place
-            + SUM_ROUNDING * (farther.abs() + 2.0 * place + r * (2.0 * size + r))
-            + double
-            + UNDERFLOW;
-        if !(rounding <= self.rounding) {
-            self.rounding = rounding;
+        if KEEP {
+            self.lowers.push(self.latest);
         }
         self.looked.push(Looked {
             leaf: leaf as u32,
             center: c,
             ties: 2.0 * (within + double + UNDERFLOW),
+            blurred: blur > beside,
         });
+    }
+
+    /// Keeps the squared distances of the leaf that is looked into, as bounds, where they are least.
+    #[inline(always)]
+    fn take<S: Simd, const KEEP: bool>(&mut self, simd: S, part: usize, upper: S::f32s, lower: S::f32s) {
+        let look = simd.splat_u32s(self.looked.len() as u32);
+        let looks = &mut S::as_mut_simd_u32s(&mut self.look.0).0[part];
+        let uppers = &mut self.upper.parts_mut::<S>()[part];
+        let lowers = &mut self.lower.parts_mut::<S>()[part];
+        let seconds = &mut self.second.parts_mut::<S>()[part];
+        if KEEP {
+            self.latest.parts_mut::<S>()[part] = lower;
+        }
+        let nearer = simd.less_than_f32s(upper, *uppers);
+        let other = simd.select_f32s(nearer, *lowers, lower);
+        *looks = simd.select_u32s(nearer, look, *looks);
+        *uppers = simd.min_f32s(upper, *uppers);
+        *lowers = simd.select_f32s(nearer, lower, *lowers);
+        *seconds = simd.min_f32s(other, *seconds);
+    }
+}
+
+/// [`Block::look_exactly`].
+struct LookExactly<'a, const KEEP: bool> {
+    block: &'a mut Block,
+    tree: &'a Tree,
+    queries: &'a [Column; 3],
+    leaf: usize,
+}
+
+impl<const KEEP: bool> WithSimd for LookExactly<'_, KEEP> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.block
+            .look_exactly::<S, KEEP>(simd, self.tree, self.queries, self.leaf);
     }
 }

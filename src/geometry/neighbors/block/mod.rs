@@ -1,28 +1,33 @@
 //! Queries that walk through the tree together.
 //!
 //! Single precision sorts out the leaves, with a bound on its rounding; the leaf that won is then
-//! compared in double precision. Where the bound leaves two leaves in the running, as with points
-//! that are equally far, the query is asked again by itself.
+//! compared in double precision. Where the bound leaves several leaves in the running, as with points
+//! that are equally far, these are all compared.
 
 mod look;
+mod reach;
 
 use pulp::Simd;
 
-use look::SUM_ROUNDING;
+use look::{PLACE_ROUNDING, SUM_ROUNDING};
 
 use super::boxes::SLACK;
 use super::lanes::{BLOCK, Lanes, Looks};
 use super::tree::{LEAF, Tree};
+use super::walk::Reach;
 
 /// A coordinate of each query.
 pub(crate) type Column = [f64; BLOCK];
 
-/// Leaves whose boxes are not much farther from the queries' middle than the queries are from what
-/// they have found are looked into first: most of them hold what is nearest to some query. So much
-/// farther, in units of how far the queries lie from their middle.
-const FIRST: f32 = 0.25;
 /// Farther away than this many half extents of the points, squares are not trusted.
 const FAR: f32 = 1e12;
+
+/// How many groups of queries are answered apart at most, the last of which holds all that are left.
+const GROUPS: usize = 6;
+/// What is fewer is no group: the queries are spread out.
+const GROUP: u32 = 6;
+/// How close together a group lies, in units of how far the queries lie from their middle.
+const CLOSE: f32 = 0.125;
 
 /// The places of a leaf, so that no sum of two of them is one.
 const CODES: [f32; LEAF] = {
@@ -42,6 +47,8 @@ struct Looked {
     center: [f32; 3],
     /// What squared distances from two of its points must differ by to be told apart.
     ties: f32,
+    /// Whether its distances are blurred for being so much farther or nearer than the reference.
+    blurred: bool,
 }
 
 /// A block of queries, in the tree's frame, and what they have found so far.
@@ -58,31 +65,38 @@ pub(super) struct Block {
     radius: f32,
     /// The queries as seen from there.
     local: [Lanes; 3],
-    /// Squared distances are kept as what they exceed |q|² and the reference by; `own` is both, or a
-    /// little more.
+    /// A point near what they find, and its squared distance from their middle. Squared distances are
+    /// kept as what they exceed |q|² and this reference by; `squares` is |q|², or a little more.
+    toward: [f64; 3],
     reference: f64,
-    own: Lanes,
-    /// The squared distance of the nearest point, and of the nearest in any other leaf than its.
-    least: Lanes,
+    squares: Lanes,
+    /// 2 q·c, with c where that point is seen from the middle, and what rounding may change in it.
+    twice_toward: Lanes,
+    twice_toward_rounding: f32,
+    /// The squared distance of the nearest point is at most `upper` and at least `lower`; in any other
+    /// leaf than its own it is at least `second`.
+    upper: Lanes,
+    lower: Lanes,
     second: Lanes,
-    /// What rounding may have changed in any of them.
-    rounding: f32,
     /// Which of `looked` has the nearest point.
     look: Looks,
     /// The leaves it has looked into.
     looked: Vec<Looked>,
-    /// How far a box may be and hold something nearer, squared.
-    reach_squared: Lanes,
+    /// At least how far their nearest points are, as `lower`, or nothing; the latest's before it is among
+    /// them.
+    lowers: Vec<Lanes>,
+    latest: Lanes,
+    /// The leaves to look into again.
+    leaves: Vec<u32>,
     /// A bound on how far it may be from the center and hold something nearer to a query, squared:
     /// `slope` times the query's squared reach and `more`, touching what it bounds where the query's
     /// reach was when the block began to walk.
     slope: Lanes,
     more: Lanes,
-    /// The greatest of these, and a bound on its root.
-    center_reach_squared: f32,
-    center_reach: f32,
-    /// How far it may be from the center and be looked into first, squared.
-    first_squared: f32,
+    /// How far to walk.
+    reach: Reach,
+    /// What it may be farther from the center than the reference and be looked into first, squared.
+    first_excess: f32,
 }
 
 impl Block {
@@ -94,39 +108,34 @@ impl Block {
             from_center: Lanes::ZERO,
             radius: 0.0,
             local: [Lanes::ZERO; 3],
+            toward: [0.0; 3],
             reference: 0.0,
-            own: Lanes::ZERO,
-            least: Lanes::INFINITY,
+            squares: Lanes::ZERO,
+            twice_toward: Lanes::ZERO,
+            twice_toward_rounding: 0.0,
+            upper: Lanes::INFINITY,
+            lower: Lanes::INFINITY,
             second: Lanes::INFINITY,
-            rounding: 0.0,
             look: Looks::FIRST,
             looked: Vec::with_capacity(64),
-            reach_squared: Lanes::INFINITY,
+            lowers: Vec::new(),
+            latest: Lanes::ZERO,
+            leaves: Vec::new(),
             slope: Lanes::ZERO,
             more: Lanes::ZERO,
-            center_reach_squared: f32::INFINITY,
-            center_reach: 0.0,
-            first_squared: 0.0,
+            reach: Reach {
+                excess: f32::INFINITY,
+                root: 0.0,
+                excess_toward: f32::INFINITY,
+            },
+            first_excess: 0.0,
         }
     }
 
-    /// Begins with other queries, which have found nothing. The distance of `leaf`'s center is what
-    /// others are compared with. `false` where the queries are so far away that squares of distances
-    /// mean little.
+    /// Begins with other queries. `false` where they are so far away that squares of distances mean
+    /// little.
     #[inline(always)]
-    pub(super) fn begin<S: Simd>(
-        &mut self,
-        simd: S,
-        tree: &Tree,
-        queries: &[Column; 3],
-        leaf: usize,
-    ) -> bool {
-        self.least = Lanes::INFINITY;
-        self.second = Lanes::INFINITY;
-        self.rounding = 0.0;
-        self.look = Looks::FIRST;
-        self.looked.clear();
-        self.reference = 0.0;
+    pub(super) fn begin<S: Simd>(&mut self, simd: S, tree: &Tree, queries: &[Column; 3]) -> bool {
         for e in 0..3 {
             let (mut all, mut local) = ([0.0; BLOCK], Lanes::ZERO);
             for i in 0..BLOCK {
@@ -140,16 +149,13 @@ impl Block {
             for i in 0..BLOCK {
                 local.0[i] = (all[i] - center) as f32;
             }
-            let c = tree.leaf_center(leaf)[e] - center;
-            self.reference += c * c;
             (self.local[e], self.center[e]) = (local, center);
         }
-        let reference = self.reference as f32;
         let mut from_center = Lanes::ZERO;
         for i in 0..BLOCK {
             let d = [self.local[0].0[i], self.local[1].0[i], self.local[2].0[i]];
             let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-            self.own.0[i] = (squared + reference) * (1.0 + 2.0 * SUM_ROUNDING);
+            self.squares.0[i] = squared * (1.0 + 2.0 * SUM_ROUNDING);
             from_center.0[i] = squared.sqrt();
         }
         self.radius = from_center.greatest(simd) * (1.0 + SLACK);
@@ -158,78 +164,97 @@ impl Block {
         ((x.abs() + y.abs() + z.abs()) as f32 + self.radius) < FAR
     }
 
-    /// The reach from what was found in the first leaf.
+    /// The first `size` queries by which of them lie close together, a bit each, and how many such groups
+    /// there are: a single one where all lie about as close together as the points of leaves do, or are
+    /// spread out.
     #[inline(always)]
-    pub(super) fn begin_reach<S: Simd>(&mut self, simd: S) {
-        self.update_reach(simd);
+    pub(super) fn groups(&self, tree: &Tree, size: usize) -> ([u32; GROUPS], usize) {
+        let mut left = u32::MAX >> (BLOCK - size);
+        let mut groups = [left; GROUPS];
+        if self.radius < tree.apart() {
+            return (groups, 1);
+        }
+        let mut count = 0;
+        let many = |query| self.close_to(query).count_ones() >= GROUP;
+        if !many(0) && !many(size / 2) {
+            return (groups, 1);
+        }
+        while left != 0 {
+            let group = self.close_to(left.trailing_zeros() as usize) & left;
+            groups[count] = if count + 1 < GROUPS { group } else { left };
+            left &= !groups[count];
+            count += 1;
+        }
+        (groups, count)
+    }
+
+    /// The queries close to one of them, a bit each.
+    #[cold]
+    #[inline(never)]
+    fn close_to(&self, query: usize) -> u32 {
+        let close = CLOSE * self.radius;
+        let mut group = 0;
         for i in 0..BLOCK {
-            let f = self.from_center.0[i] * (1.0 + SLACK);
-            // (r + f)² is at most (1 + k) r² + (1 + 1/k) f², whatever k, and just that for k = f / r.
-            // What is zero, or nearly, must not divide.
-            let reach = self.reach_squared.0[i].sqrt().max(f * 0.0625).max(1e-18);
-            self.slope.0[i] = (reach + f) / reach;
-            self.more.0[i] = (reach + f) * f;
+            let mut squared = 0.0;
+            for e in 0..3 {
+                let d = self.local[e].0[i] - self.local[e].0[query];
+                squared += d * d;
+            }
+            // It is close to itself, even where there is no radius.
+            group |= u32::from(squared <= close * close) << i;
         }
-        self.center_reach = 0.0;
-        self.update_reach(simd);
+        group
     }
 
-    /// Draws the reach in to what was found.
+    /// Nothing is found yet. The distance of `leaf`'s center, or of a point of it, is what others are
+    /// compared with. Returns whether boxes may be small beside that.
     #[inline(always)]
-    pub(super) fn update_reach<S: Simd>(&mut self, simd: S) {
-        let (own, least) = (self.own.parts::<S>(), self.least.parts::<S>());
-        let (slope, more) = (self.slope.parts::<S>(), self.more.parts::<S>());
-        let reach_squared = self.reach_squared.parts_mut::<S>();
-        let rounding = simd.splat_f32s(self.rounding);
-        let zero = simd.splat_f32s(0.0);
-        let (mut farthest, mut sum) = (zero, zero);
-        for part in 0..own.len() {
-            let squared = simd.add_f32s(own[part], simd.add_f32s(least[part], rounding));
-            let reach = simd.max_f32s(squared, zero);
-            reach_squared[part] = reach;
-            farthest = simd.max_f32s(farthest, simd.mul_add_e_f32s(reach, slope[part], more[part]));
-            sum = simd.add_f32s(sum, reach);
-        }
-        self.center_reach_squared = simd.reduce_max_f32s(farthest) * (1.0 + SLACK);
-        // The reach hardly ever grows: then because more was rounded.
-        if self.center_reach_squared > self.center_reach * self.center_reach {
-            self.center_reach = self.center_reach_squared.sqrt() * (1.0 + SLACK);
-        }
-        let mean = simd.reduce_sum_f32s(sum) * (1.0 / BLOCK as f32);
-        self.first_squared = mean + FIRST * self.center_reach * self.radius;
-    }
-
-    /// A point that the queries lie around, in the tree's frame.
-    #[inline(always)]
-    pub(super) fn center(&self) -> [f64; 3] {
-        self.center
-    }
-
-    /// How far from the center a box may be and hold something nearer to any query, squared, and a
-    /// bound on its root.
-    #[inline(always)]
-    pub(super) fn center_reach(&self) -> (f32, f32) {
-        (self.center_reach_squared, self.center_reach)
-    }
-
-    /// How far from the center a box may be and be looked into before others, squared.
-    #[inline(always)]
-    pub(super) fn first_squared(&self) -> f32 {
-        self.first_squared
-    }
-
-    /// Whether a box may hold something nearer to any query.
-    #[inline(always)]
-    pub(super) fn may_find_in<S: Simd>(&self, tree: &Tree, leaf: usize) -> bool {
-        let (boxes, lane) = tree.leaf_box(leaf);
-        let center = tree.leaf_center(leaf);
-        let (mut own, mut size) = ([0.0; 3], self.radius + tree.leaf_near(leaf).radius);
+    pub(super) fn refer_to(&mut self, tree: &Tree, leaf: usize) -> bool {
+        self.find_nothing();
+        self.toward = if tree.is_coarse(leaf) {
+            tree.nearest_in_leaf(leaf, self.center)
+        } else {
+            tree.leaf_center(leaf)
+        };
+        self.reference = 0.0;
+        let mut twice = [0.0; 3];
         for e in 0..3 {
-            own[e] = (center[e] - self.center[e]) as f32;
-            size += own[e].abs();
+            let c = self.toward[e] - self.center[e];
+            self.reference += c * c;
+            twice[e] = 2.0 * c as f32;
         }
-        let reach = (&self.reach_squared, self.center_reach);
-        boxes.any_within::<S>((lane, own, size), &self.local, reach)
+        if !tree.is_far_off(self.reference) {
+            return false;
+        }
+        for i in 0..BLOCK {
+            let q = [self.local[0].0[i], self.local[1].0[i], self.local[2].0[i]];
+            self.twice_toward.0[i] = q[0] * twice[0] + q[1] * twice[1] + q[2] * twice[2];
+        }
+        let size = (self.reference as f32).sqrt() + self.radius;
+        self.twice_toward_rounding = PLACE_ROUNDING * self.radius * size;
+        true
+    }
+
+    /// Nothing is found yet.
+    #[inline(always)]
+    fn find_nothing(&mut self) {
+        self.upper = Lanes::INFINITY;
+        self.lower = Lanes::INFINITY;
+        self.second = Lanes::INFINITY;
+        self.look = Looks::FIRST;
+        self.looked.clear();
+        self.lowers.clear();
+    }
+
+    /// How far the queries lie from a point in the tree's frame, squared, and from their middle at most.
+    #[inline(always)]
+    pub(super) fn moved_from(&self, point: [f64; 3]) -> (f32, f32) {
+        let mut squared = 0.0;
+        for e in 0..3 {
+            let d = (self.center[e] - point[e]) as f32;
+            squared += d * d;
+        }
+        (squared, self.radius)
     }
 
     /// Which point of the leaf found is the query's nearest, where single precision tells them apart.
@@ -269,7 +294,34 @@ impl Block {
     /// The leaf in which the query's nearest point seems to be, and whether it surely is.
     #[inline(always)]
     pub(super) fn found(&self, i: usize) -> (usize, bool) {
-        let surely = self.second.0[i] - self.least.0[i] > 2.0 * self.rounding;
+        let surely = self.second.0[i] > self.upper.0[i];
         (self.looked[self.look.0[i] as usize].leaf as usize, surely)
+    }
+
+    /// The leaves that may hold what is nearest to a query, no other does: after [`Block::look_again`].
+    #[inline(always)]
+    pub(super) fn candidates(&self, i: usize) -> impl Iterator<Item = usize> {
+        let leaves = self.looked.iter().zip(&self.lowers);
+        leaves
+            .filter(move |(_, lower)| !(lower.0[i] > self.upper.0[i]))
+            .map(|(looked, _)| looked.leaf as usize)
+    }
+
+    /// Whether the candidates are known.
+    #[inline(always)]
+    pub(super) fn knows_candidates(&self) -> bool {
+        !self.lowers.is_empty()
+    }
+
+    /// How many leaves were looked into.
+    #[inline(always)]
+    pub(super) fn looked(&self) -> usize {
+        self.looked.len()
+    }
+
+    /// Whether another reference would tell more queries' nearest from others.
+    #[inline(always)]
+    pub(super) fn is_blurred(&self, i: usize) -> bool {
+        self.looked[self.look.0[i] as usize].blurred
     }
 }
