@@ -38,6 +38,11 @@ fn awkward(kind: usize, seed: u64, count: usize, offset: f64) -> Vec<DVec3> {
         5 => p.round() + 1e-6 * p,
         6 => p.normalize(),
         9 => p.signum() + 1e-4 * p,
+        10 => p.signum() + 1e-8 * p,
+        11 => (p * 3.0).round() + 1e-7 * p,
+        // A tiny clump with strays all around.
+        12 if p.x > 0.8 => p,
+        12 => 1e-5 * p,
         _ => {
             if p.x < 0.5 {
                 DVec3::splat(0.25)
@@ -54,7 +59,7 @@ proptest! {
 
     #[test]
     fn the_nearest_is_exactly_the_nearest_on_awkward_clouds(
-        kind in 0usize..10, seed in 0u64..1000, count in 1usize..1200,
+        kind in 0usize..13, seed in 0u64..1000, count in 1usize..1200,
         offset in prop::sample::select(vec![0.0, 1e6]), reach in prop::sample::select(vec![0.1, 1.0, 3.0, 1e4, 1e12]),
     ) {
         let points = awkward(kind, seed, count, offset);
@@ -85,7 +90,7 @@ proptest! {
 
     #[test]
     fn the_nearest_places_are_exactly_those_on_awkward_clouds(
-        kind in 0usize..10, seed in 0u64..1000, count in 1usize..600, wanted in 1usize..50,
+        kind in 0usize..13, seed in 0u64..1000, count in 1usize..600, wanted in 1usize..50,
         offset in prop::sample::select(vec![0.0, 1e6]), reach in prop::sample::select(vec![1.0, 1e4]),
     ) {
         let points = awkward(kind, seed, count, offset);
@@ -135,7 +140,7 @@ proptest! {
 
     #[test]
     fn points_mirrored_together_find_exactly_the_nearest(
-        kind in 0usize..10, seed in 0u64..1000, count in 500usize..1500, offset in prop::sample::select(vec![0.0, 1e4]),
+        kind in 0usize..13, seed in 0u64..1000, count in 500usize..1500, offset in prop::sample::select(vec![0.0, 1e4]),
         away in prop::sample::select(vec![0.0, 0.5, 5.0]),
     ) {
         let points = awkward(kind, seed, count, offset);
