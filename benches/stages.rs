@@ -1,4 +1,5 @@
-//! Each stage of the method on clouds of the paper's ellipsoid's shape.
+//! Each stage of the method on clouds of the paper's ellipsoid's shape, and what scoring costs on clouds
+//! that trees stumble over.
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -28,7 +29,7 @@ fn ellipsoid(count: usize) -> (Vec<DVec3>, Vec<DVec3>) {
             let r = (1.0 - z * z).sqrt();
             let unit = DVec3::new(r * turn.cos(), r * turn.sin(), z);
             (
-                unit * half_axes + DVec3::new(3.0, 5.0, 25.0),
+                unit * half_axes + ELLIPSOID_CENTER,
                 (unit / half_axes).normalize(),
             )
         })
@@ -107,5 +108,66 @@ fn stages(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, stages);
+/// Point `i`, which is `at` on the ellipsoid and `d` seen from its center, somewhere else.
+type Move = fn(i: usize, at: DVec3, d: DVec3) -> DVec3;
+
+const ELLIPSOID_CENTER: DVec3 = DVec3::new(3.0, 5.0, 25.0);
+
+/// Points of a clump, the numbers of which fill a unit cube evenly.
+fn in_clump(i: usize) -> DVec3 {
+    (DVec3::new(0.819_172_513, 0.671_043_607, 0.549_700_478) * i as f64).fract() - 0.5
+}
+
+const AWKWARD: [(&str, Move); 8] = [
+    ("even", |_, at, _| at),
+    ("equal coordinates", |_, at, _| (at * 20.0).round() / 20.0),
+    ("a line", |i, _, d| {
+        ELLIPSOID_CENTER + DVec3::new(d.x, 1e-3 * in_clump(i).x, 1e-3 * in_clump(i).y)
+    }),
+    ("8 clumps of 1e-2", |i, _, d| {
+        ELLIPSOID_CENTER + 2.0 * d.signum() + 1e-2 * in_clump(i)
+    }),
+    ("8 clumps of 1e-6", |i, _, d| {
+        ELLIPSOID_CENTER + 2.0 * d.signum() + 1e-6 * in_clump(i)
+    }),
+    ("a clump and strays", |i, _, _| {
+        ELLIPSOID_CENTER + in_clump(i) * if i % 100 == 0 { 4.0 } else { 1e-4 }
+    }),
+    ("one far stray", |i, at, _| if i == 0 { at + 1e6 } else { at }),
+    ("a lattice of clumps", |_, _, d| {
+        ELLIPSOID_CENTER + d.round() + 1e-6 * d
+    }),
+];
+
+fn awkward(c: &mut Criterion) {
+    let mut group = c.benchmark_group("plane terms with their index, u = 6");
+    group.sample_size(10);
+    let grid = CandidateGrid::new(6).expect("a grid");
+    let center = DVec3::new(3.0, 5.0, 24.6);
+    for count in [3_000, 30_000] {
+        let (points, normals) = ellipsoid(count);
+        for (name, moved) in AWKWARD {
+            let points: Vec<DVec3> = (points.iter().enumerate())
+                .map(|(i, &at)| moved(i, at, at - ELLIPSOID_CENTER))
+                .collect();
+            group.bench_function(BenchmarkId::new(name, count), |b| {
+                b.iter(|| {
+                    let surface = Surface::new(black_box(&points), &normals).expect("a surface");
+                    plane_terms(&surface, Unit::Centimeter, center, DVec3::ZERO, grid, &())
+                });
+            });
+        }
+        // Ten points at each place.
+        let duplicates: Vec<DVec3> = (0..count).map(|i| points[i / 10]).collect();
+        group.bench_function(BenchmarkId::new("duplicates", count), |b| {
+            b.iter(|| {
+                let surface = Surface::new(black_box(&duplicates), &normals).expect("a surface");
+                plane_terms(&surface, Unit::Centimeter, center, DVec3::ZERO, grid, &())
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, stages, awkward);
 criterion_main!(benches);
