@@ -34,10 +34,6 @@ const ROUND: usize = 8;
 /// Where fewer leaves wait, drawing the reach in is not worth its time.
 const MANY: usize = 24;
 
-/// What is this many times as far from the queries before as they lie from their middle is somewhere
-/// else.
-const JUMP: f32 = 8.0;
-
 /// Answers blocks of queries, each from where the block before it found its.
 ///
 /// To be used where code is built for the vector instructions `S`: all that it calls in its loops is
@@ -73,7 +69,7 @@ impl<'a, S: Simd> Together<'a, S> {
     pub(crate) fn answer(&mut self, queries: &[Column; 3], size: usize, nearest: &mut Nearest) {
         let (simd, index, tree) = (self.simd, self.index, &self.index.tree);
         let query = |i: usize| DVec3::new(queries[0][i], queries[1][i], queries[2][i]);
-        let before = self.block.from();
+        let mut before = self.block.standpoint();
         if !self.block.begin(simd, tree, queries) {
             for i in 0..size {
                 let start = tree.descend(tree.in_frame(query(i)).to_array());
@@ -91,12 +87,12 @@ impl<'a, S: Simd> Together<'a, S> {
                 part = &apart;
                 self.block.begin(simd, tree, part);
             }
-            let (moved_squared, radius) = self.block.moved_from(before.center);
-            let much = JUMP * (radius + before.radius);
+            let here = self.block.standpoint();
             let mut start = match self.start {
-                Some(leaf) if moved_squared < much * much => leaf,
-                _ => tree.descend(self.block.from().center),
+                Some(leaf) if here.is_near(&before) => leaf,
+                _ => tree.descend(here.center),
             };
+            before = here;
             for again in [true, false] {
                 if self.block.refer_to(tree, start) {
                     let together = &mut *self;
@@ -156,7 +152,7 @@ impl<'a, S: Simd> Together<'a, S> {
         // Where the query before these found its, so that not much else is in reach.
         block.look_into::<S, FAR_OFF>(simd, tree, queries, start);
         block.begin_reach::<S, FAR_OFF>(simd);
-        walk.begin(tree, block.from());
+        walk.begin(tree, block.standpoint());
         let mut count = 0;
         while let Some((leaf, distance)) = walk.next::<S, FAR_OFF>(tree, block.reach()) {
             if leaf == start {

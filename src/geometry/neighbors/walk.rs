@@ -17,6 +17,23 @@ pub(super) struct Standpoint {
     pub(super) reference: f64,
 }
 
+/// What is this many times as far from other queries as they lie from their middles is somewhere else.
+const JUMP: f32 = 8.0;
+
+impl Standpoint {
+    /// Whether what these queries look for is likely to be near what the others have found.
+    #[inline(always)]
+    pub(super) fn is_near(&self, other: &Self) -> bool {
+        let mut squared = 0.0;
+        for e in 0..3 {
+            let d = (self.center[e] - other.center[e]) as f32;
+            squared += d * d;
+        }
+        let much = JUMP * (self.radius + other.radius);
+        squared < much * much
+    }
+}
+
 /// How far to walk: a box is out of reach once either bound says so.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reach {

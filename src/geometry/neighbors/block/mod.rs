@@ -246,17 +246,6 @@ impl Block {
         self.lowers.clear();
     }
 
-    /// How far the queries lie from a point in the tree's frame, squared, and from their middle at most.
-    #[inline(always)]
-    pub(super) fn moved_from(&self, point: [f64; 3]) -> (f32, f32) {
-        let mut squared = 0.0;
-        for e in 0..3 {
-            let d = (self.center[e] - point[e]) as f32;
-            squared += d * d;
-        }
-        (squared, self.radius)
-    }
-
     /// Which point of the leaf found is the query's nearest, where single precision tells them apart.
     #[inline(always)]
     pub(super) fn place<S: Simd>(&self, simd: S, i: usize, tree: &Tree) -> Option<usize> {

@@ -66,7 +66,7 @@ impl Block {
 
     /// Where the queries begin to walk.
     #[inline(always)]
-    pub(in super::super) fn from(&self) -> Standpoint {
+    pub(in super::super) fn standpoint(&self) -> Standpoint {
         Standpoint {
             center: self.center,
             radius: self.radius,
