@@ -43,6 +43,9 @@ fn awkward(kind: usize, seed: u64, count: usize, offset: f64) -> Vec<DVec3> {
         // A tiny clump with strays all around.
         12 if p.x > 0.8 => p,
         12 => 1e-5 * p,
+        // Clumps of many sizes; shells in shells.
+        13 => (p * 1.5).round() + 1e-7 * p,
+        14 => p * 10f64.powi((8.0 * p.x) as i32),
         _ => {
             if p.x < 0.5 {
                 DVec3::splat(0.25)
@@ -59,7 +62,7 @@ proptest! {
 
     #[test]
     fn the_nearest_is_exactly_the_nearest_on_awkward_clouds(
-        kind in 0usize..13, seed in 0u64..1000, count in 1usize..1200,
+        kind in 0usize..15, seed in 0u64..1000, count in 1usize..1200,
         offset in prop::sample::select(vec![0.0, 1e6]), reach in prop::sample::select(vec![0.1, 1.0, 3.0, 1e4, 1e12]),
     ) {
         let points = awkward(kind, seed, count, offset);
@@ -90,7 +93,7 @@ proptest! {
 
     #[test]
     fn the_nearest_places_are_exactly_those_on_awkward_clouds(
-        kind in 0usize..13, seed in 0u64..1000, count in 1usize..600, wanted in 1usize..50,
+        kind in 0usize..15, seed in 0u64..1000, count in 1usize..600, wanted in 1usize..50,
         offset in prop::sample::select(vec![0.0, 1e6]), reach in prop::sample::select(vec![1.0, 1e4]),
     ) {
         let points = awkward(kind, seed, count, offset);
@@ -140,7 +143,7 @@ proptest! {
 
     #[test]
     fn points_mirrored_together_find_exactly_the_nearest(
-        kind in 0usize..13, seed in 0u64..1000, count in 500usize..1500, offset in prop::sample::select(vec![0.0, 1e4]),
+        kind in 0usize..15, seed in 0u64..1000, count in 500usize..1500, offset in prop::sample::select(vec![0.0, 1e4]),
         away in prop::sample::select(vec![0.0, 0.5, 5.0]),
     ) {
         let points = awkward(kind, seed, count, offset);
@@ -191,6 +194,25 @@ proptest! {
         off.sort_by(f64::total_cmp);
         prop_assert!(off[off.len() / 2] < 4.0, "median {}", off[off.len() / 2]);
         prop_assert!(normals.iter().zip(&v.points).all(|(n, p)| n.unwrap().dot(-*p) >= 0.0));
+    }
+
+    #[test]
+    fn normals_on_awkward_clouds_are_those_of_the_nearest(
+        kind in prop::sample::select(vec![0, 5, 6, 9, 12, 13]), seed in 0u64..1000, count in 30usize..600,
+    ) {
+        let points = awkward(kind, seed, count, 0.0);
+        let normals = estimate_normals(&points, k(8), DVec3::ZERO, &()).unwrap();
+        for (&point, normal) in points.iter().zip(normals).step_by(7) {
+            let mut near = points.clone();
+            near.sort_by(|a, b| a.distance_squared(point).total_cmp(&b.distance_squared(point)));
+            let spread = Spread::of_points(&near[..8]).unwrap();
+            prop_assert_eq!(normal.is_none(), spread.is_line());
+            // Where two directions are alike, the normal could be either.
+            if !spread.is_line() && spread.variances[1] > 1.01 * spread.variances[0] {
+                let cos = normal.unwrap().dot(spread.axes[0]).abs();
+                prop_assert!(cos > 1.0 - 1e-9, "{} at {}", cos, point);
+            }
+        }
     }
 
     #[test]
@@ -334,11 +356,41 @@ fn points_that_are_not_finite_never_enter_a_cloud() {
 }
 
 #[test]
+fn clumps_stay_whole_in_the_order_of_neighbors() {
+    // More points than a leaf holds, and not as many as some leaves hold.
+    for (clumps, least) in [(7, 45), (8, 375), (27, 60), (125, 100)] {
+        let sizes = (0..clumps).map(|clump| least + 5 * (clump % 4));
+        let clump_of: Vec<usize> = sizes
+            .enumerate()
+            .flat_map(|(clump, size)| vec![clump; size])
+            .collect();
+        let points: Vec<DVec3> = (scattered(1, clump_of.len()).iter().zip(&clump_of))
+            .map(|(p, i)| DVec3::new((i % 5) as f64, (i / 5 % 5) as f64, (i / 25) as f64) + 1e-6 * *p)
+            .collect();
+        let index = Neighbors::new(&points).unwrap();
+        let order = index.order();
+        let apart = order
+            .windows(2)
+            .filter(|pair| clump_of[pair[0] as usize] != clump_of[pair[1] as usize]);
+        assert_eq!(
+            apart.count(),
+            clumps - 1,
+            "{clumps} clumps of {least} points or more"
+        );
+    }
+}
+
+#[test]
 fn queries_with_most_points_in_reach_find_the_nearest() {
     // From about the center of a sphere everything is about as far; from all around, everything may be near.
-    let points: Vec<DVec3> = scattered(1, 6000).iter().map(|p| p.normalize()).collect();
-    let index = Neighbors::new(&points).unwrap();
-    for spread in [0.01, 1.0, 3.0] {
+    // From far around a tiny one both is so.
+    for (radius, spread) in [(1.0, 0.01), (1.0, 1.0), (1.0, 3.0), (1e-6, 1.0), (1e-9, 1.0)] {
+        let mut points: Vec<DVec3> = scattered(1, 6000)
+            .iter()
+            .map(|p| radius * p.normalize())
+            .collect();
+        points.push(DVec3::splat(3.0));
+        let index = Neighbors::new(&points).unwrap();
         let queries: Vec<DVec3> = scattered(2, 64).iter().map(|q| q * spread).collect();
         for (query, found) in queries.iter().zip(index.nearest_of_each(&queries)) {
             let nearest = points

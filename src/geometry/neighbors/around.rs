@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use glam::DVec3;
 use pulp::Scalar;
 
-use super::tree::LEAF;
+use super::leaf::LEAF;
 use super::walk::Walk;
 use super::{Neighbor, Neighbors};
 
@@ -28,8 +28,8 @@ impl Neighbors {
     /// distances and positions, in no order where no place holds more than one point.
     #[inline(always)]
     pub(crate) fn around(&self, position: usize, count: NonZeroUsize, found: &mut Vec<(f64, u32)>) {
-        let leaf = position / LEAF;
-        let query = self.tree.place(leaf, position % LEAF);
+        let (leaf, place) = self.tree.leaf_at(position);
+        let query = self.tree.place(leaf, place);
         self.gather(query, count, leaf, found);
         if self.first.len() < self.order.len() {
             self.put_in_order(count, found);
@@ -48,14 +48,24 @@ impl Neighbors {
         let count = count.get().min(self.tree.len());
         // Some places nearby, whose count-th bounds the search.
         found.clear();
-        // One leaf more than they fill, since the last may be short.
+        // One leaf more than they fill, since leaves may be short.
         let window = count.div_ceil(LEAF) + 1;
-        let leaves = self.tree.len().div_ceil(LEAF);
-        let from = start
+        let leaves = self.tree.leaves();
+        let mut from = start
             .saturating_sub(window / 2)
             .min(leaves.saturating_sub(window));
-        for leaf in from..(from + window).min(leaves) {
+        let mut to = (from + window).min(leaves);
+        for leaf in from..to {
             self.collect(leaf, query, f64::INFINITY, found);
+        }
+        while found.len() < count {
+            if to < leaves {
+                self.collect(to, query, f64::INFINITY, found);
+                to += 1;
+            } else {
+                from -= 1;
+                self.collect(from, query, f64::INFINITY, found);
+            }
         }
         let (_, &mut (limit, _), _) = found.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
         found.clear();
@@ -91,8 +101,7 @@ impl Neighbors {
     #[inline(always)]
     fn collect(&self, leaf: usize, query: DVec3, limit: f64, found: &mut Vec<(f64, u32)>) {
         let distances = self.tree.leaf_distances_squared(leaf, query);
-        for position in self.tree.positions(leaf) {
-            let d = distances[position % LEAF];
+        for (position, &d) in self.tree.positions(leaf).zip(&distances) {
             if d <= limit {
                 found.push((d, position as u32));
             }

@@ -20,7 +20,9 @@
 mod around;
 mod block;
 mod boxes;
+mod gaps;
 mod lanes;
+mod leaf;
 mod order;
 mod places;
 mod together;
@@ -31,9 +33,10 @@ use glam::DVec3;
 use pulp::{Scalar, Simd};
 
 pub(crate) use lanes::BLOCK;
+use leaf::LEAF;
 use places::distinct_places;
 pub(crate) use together::{Nearest, Together};
-use tree::{LEAF, Tree};
+use tree::Tree;
 use walk::Walk;
 
 /// One place in space and the points that lie exactly there.
@@ -141,7 +144,7 @@ impl Neighbors {
     #[inline(always)]
     fn nearest_from<S: Simd>(&self, start: usize, query: DVec3) -> (f64, usize) {
         // The first place there stands in where every distance overflows.
-        let mut best = (f64::INFINITY, start * LEAF);
+        let mut best = (f64::INFINITY, self.tree.positions(start).start);
         self.look_into(start, query, &mut best);
         let (from, mut reach) = self.tree.single(self.tree.in_frame(query).to_array(), best.0);
         let mut walk = Walk::new();
@@ -161,7 +164,7 @@ impl Neighbors {
         let mut best = (f64::INFINITY, 0);
         for leaf in leaves {
             if best.0 == f64::INFINITY {
-                best.1 = leaf * LEAF;
+                best.1 = self.tree.positions(leaf).start;
             }
             self.look_into(leaf, query, &mut best);
         }
@@ -188,7 +191,7 @@ impl Neighbors {
         }
         // The first of equals is the lowest. Where all overflow none may be equal, or one that is
         // left over.
-        let position = leaf * LEAF + equal.trailing_zeros() as usize;
+        let position = self.tree.positions(leaf).start + equal.trailing_zeros() as usize;
         if least < best.0
             || (least == best.0 && least < f64::INFINITY && self.first[position] < self.first[best.1])
         {

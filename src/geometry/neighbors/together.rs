@@ -6,7 +6,6 @@ use pulp::{Scalar, Simd, WithSimd};
 use super::Neighbors;
 use super::block::{Block, Column};
 use super::lanes::{BLOCK, seldom};
-use super::tree::LEAF;
 use super::walk::Walk;
 
 /// What is nearest to each query of a block.
@@ -124,7 +123,10 @@ impl<'a, S: Simd> Together<'a, S> {
                     None
                 };
                 let (distance, position) = if let Some(place) = place {
-                    (tree.distance_squared(leaf, place, query(to)), leaf * LEAF + place)
+                    (
+                        tree.distance_squared(leaf, place, query(to)),
+                        tree.positions(leaf).start + place,
+                    )
                 } else {
                     let (block, query) = (&mut self.block, query(to));
                     let again = Again {

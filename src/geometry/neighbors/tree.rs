@@ -1,5 +1,5 @@
-//! A balanced tree of boxes over leaves of points, laid out by position alone: leaf `i` holds the
-//! points from `i * LEAF`, and a node of a level the sixteen nodes below it.
+//! A tree of boxes over leaves of points, laid out by number alone: a node holds sixteen leaves that
+//! follow one another, or sixteen nodes of the level below.
 
 use std::ops::Range;
 
@@ -7,60 +7,15 @@ use glam::DVec3;
 use pulp::Scalar;
 
 use super::boxes::{Boxes, FAR_OFF_SQUARED, SLACK, WIDTH};
-use super::order::in_order;
+use super::leaf::{LEAF, Leaf, Near, extent};
+use super::order::{Order, in_order};
 use super::walk::{Reach, Standpoint};
 use crate::geometry::parallel::{join, map_pieces};
 
-/// Points in a leaf.
-pub(super) const LEAF: usize = 32;
-
 /// Leaves so many times as large as most are coarse.
 const COARSE: f32 = 32.0;
-
-/// Points of a leaf, coordinate by coordinate; what is left over lies at infinity.
-type Leaf = [[f64; LEAF]; 3];
-
-/// The same points in single precision, seen from the leaf's center, in the tree's frame.
-#[derive(Debug, Clone, Copy)]
-// No vector straddles two lines of the cache.
-#[repr(C, align(64))]
-pub(super) struct Near {
-    /// -2 times their coordinates.
-    pub(super) minus_twice: [[f32; LEAF]; 3],
-    /// Their squared distances from the center; what is left over lies at infinity.
-    pub(super) squared: [f32; LEAF],
-    /// The largest distance from the center, or a little more.
-    pub(super) radius: f32,
-    /// In the tree's frame.
-    center: [f64; 3],
-}
-
-impl Near {
-    const NONE: Self = Self {
-        minus_twice: [[0.0; LEAF]; 3],
-        squared: [f32::INFINITY; LEAF],
-        radius: 0.0,
-        center: [0.0; 3],
-    };
-
-    /// Of points in the tree's frame.
-    fn new(points: &[DVec3]) -> Self {
-        let mut near = Self::NONE;
-        let (low, high) = extent(points);
-        let center = 0.5 * (low + high);
-        near.center = center.to_array();
-        for (i, &point) in points.iter().enumerate() {
-            let p = (point - center).as_vec3();
-            for e in 0..3 {
-                near.minus_twice[e][i] = -2.0 * p[e];
-            }
-            near.squared[i] = p.as_dvec3().length_squared() as f32;
-            near.radius = near.radius.max(p.length());
-        }
-        near.radius *= 1.0 + 1e-6;
-        near
-    }
-}
+/// Queries that lie so many times as far from each other as small leaves are large may be in groups.
+const APART: f32 = 32.0;
 
 #[derive(Debug)]
 pub(super) struct Tree {
@@ -68,13 +23,14 @@ pub(super) struct Tree {
     near: Vec<Near>,
     /// The leaves' boxes, then those of sixteen leaves each, up to a single group.
     levels: Vec<Vec<Boxes>>,
-    len: usize,
+    /// Where in the tree's order each leaf's points start; then how many there are.
+    starts: Vec<u32>,
     /// The boxes' frame: `(p - origin) * scale` lies within -1..1 for each point.
     origin: DVec3,
     scale: f64,
     /// The radius beyond which a leaf is coarse.
     coarse: f32,
-    /// The same as to small leaves rather than most.
+    /// The radius beyond which queries may lie in groups far apart.
     apart: f32,
     /// The squared distance beside which small leaves are far off.
     far_off: f64,
@@ -88,14 +44,18 @@ impl Tree {
         let half = 0.5 * (high - low).max_element();
         let scale = if half > 0.0 { 1.0 / half } else { 1.0 };
         let in_frame = |number: u32| (points[number as usize] - origin) * scale;
-        let mut order = in_order(points.len(), &in_frame);
-        let count = points.len().div_ceil(LEAF);
+        let Order {
+            numbers: mut order,
+            starts,
+        } = in_order(points.len(), &in_frame);
+        let count = starts.len() - 1;
         let mut leaves = vec![[[f64::INFINITY; LEAF]; 3]; count];
         let mut near = vec![Near::NONE; count];
         let mut boxes = vec![Boxes::NONE; count.div_ceil(WIDTH)];
         let mut bounds = vec![(DVec3::ZERO, DVec3::ZERO); boxes.len()];
         let pieces = Pieces {
             numbers: &mut order,
+            starts: &starts,
             leaves: &mut leaves,
             near: &mut near,
             boxes: &mut boxes,
@@ -103,33 +63,37 @@ impl Tree {
         };
         pieces.each(&|piece: Pieces<'_>| {
             let mut local = [DVec3::ZERO; LEAF * WIDTH];
+            let count = piece.leaves.len();
+            let range = |leaf: usize| {
+                let from = piece.starts[0];
+                (piece.starts[leaf] - from) as usize..(piece.starts[leaf + 1] - from) as usize
+            };
             // By number, so that the first of equals is the lowest.
-            piece.numbers.chunks_mut(LEAF).for_each(<[u32]>::sort_unstable);
+            for leaf in 0..count {
+                piece.numbers[range(leaf)].sort_unstable();
+            }
             for (at, &number) in local.iter_mut().zip(&*piece.numbers) {
                 *at = in_frame(number);
             }
-            let local = &local[..piece.numbers.len()];
-            piece.bounds[0] = extent(local);
+            piece.bounds[0] = extent(&local[..piece.numbers.len()]);
             let mut own = [DVec3::ZERO; WIDTH];
-            let mut count = 0;
-            for numbers in piece.numbers.chunks(LEAF) {
-                for (i, &number) in numbers.iter().enumerate() {
+            for leaf in 0..count {
+                for (i, &number) in piece.numbers[range(leaf)].iter().enumerate() {
                     for e in 0..3 {
-                        piece.leaves[count][e][i] = points[number as usize][e];
+                        piece.leaves[leaf][e][i] = points[number as usize][e];
                     }
                 }
-                piece.near[count] = Near::new(&local[count * LEAF..][..numbers.len()]);
-                own[count] = DVec3::from_array(piece.near[count].center);
-                count += 1;
+                piece.near[leaf] = Near::new(&local[range(leaf)]);
+                own[leaf] = DVec3::from_array(piece.near[leaf].center);
             }
             piece.boxes[0] = Boxes::among(&own[..count]);
-            for (lane, local) in local.chunks(LEAF).enumerate() {
-                piece.boxes[0].set(lane, own[lane], local.iter().copied());
+            for leaf in 0..count {
+                piece.boxes[0].set(leaf, own[leaf], local[range(leaf)].iter().copied());
             }
             piece.boxes[0].finish(count);
         });
         let mut levels = vec![boxes];
-        let mut size = LEAF;
+        let mut size = 1;
         while bounds.len() > 1 {
             size *= WIDTH;
             // One by one where there are few.
@@ -144,7 +108,8 @@ impl Tree {
                 let mut boxes = Boxes::among(&own.collect::<Vec<DVec3>>());
                 for (lane, number) in range.enumerate() {
                     let own = middle(bounds[number]);
-                    let numbers = &order[number * size..((number + 1) * size).min(order.len())];
+                    let (first, end) = (number * size, ((number + 1) * size).min(count));
+                    let numbers = &order[starts[first] as usize..starts[end] as usize];
                     boxes.set(lane, own, numbers.iter().map(|&number| in_frame(number)));
                 }
                 boxes
@@ -165,11 +130,11 @@ impl Tree {
             leaves,
             near,
             levels,
-            len: points.len(),
+            starts,
             origin,
             scale,
             coarse: COARSE * typical,
-            apart: COARSE * small,
+            apart: APART * small,
             far_off: FAR_OFF_SQUARED * f64::from(small) * f64::from(small),
         };
         (tree, order)
@@ -277,9 +242,7 @@ impl Tree {
     /// The point of a leaf that lies nearest to `from`, both in the boxes' frame, or nearly so.
     pub(super) fn nearest_in_leaf(&self, leaf: usize, from: [f64; 3]) -> [f64; 3] {
         let from = DVec3::from_array(from);
-        let places = self
-            .positions(leaf)
-            .map(|place| self.in_frame(self.place(leaf, place % LEAF)));
+        let places = (0..self.positions(leaf).len()).map(|place| self.in_frame(self.place(leaf, place)));
         let nearest = places.min_by(|a, b| (a.distance_squared(from)).total_cmp(&b.distance_squared(from)));
         nearest.unwrap_or(from).to_array()
     }
@@ -326,18 +289,34 @@ impl Tree {
 
     /// The positions of a leaf's points in the tree's order.
     #[inline(always)]
-    pub(super) fn positions(&self, leaf: usize) -> std::ops::Range<usize> {
-        leaf * LEAF..((leaf + 1) * LEAF).min(self.len)
+    pub(super) fn positions(&self, leaf: usize) -> Range<usize> {
+        self.starts[leaf] as usize..self.starts[leaf + 1] as usize
     }
 
+    /// The leaf that holds a position, and the place there.
+    #[inline(always)]
+    pub(super) fn leaf_at(&self, position: usize) -> (usize, usize) {
+        // That one, if all leaves are full.
+        let full = position / LEAF;
+        let leaf = if self.positions(full).contains(&position) {
+            full
+        } else {
+            self.starts.partition_point(|&start| start as usize <= position) - 1
+        };
+        (leaf, position - self.starts[leaf] as usize)
+    }
+
+    /// How many points there are.
     pub(super) fn len(&self) -> usize {
-        self.len
+        self.positions(self.leaves() - 1).end
     }
 }
 
 /// What is made of some of a tree's points, by groups of sixteen leaves.
 struct Pieces<'a> {
     numbers: &'a mut [u32],
+    /// Where each leaf's numbers start, and where the last one's end, from `starts[0]`.
+    starts: &'a [u32],
     leaves: &'a mut [Leaf],
     near: &'a mut [Near],
     boxes: &'a mut [Boxes],
@@ -353,7 +332,9 @@ impl Pieces<'_> {
             return work(self);
         }
         let half = groups / 2;
-        let (numbers, other_numbers) = self.numbers.split_at_mut(half * WIDTH * LEAF);
+        let starts = &self.starts[..=half * WIDTH];
+        let other_starts = &self.starts[half * WIDTH..];
+        let (numbers, other_numbers) = (self.numbers).split_at_mut((other_starts[0] - starts[0]) as usize);
         let (leaves, other_leaves) = self.leaves.split_at_mut(half * WIDTH);
         let (near, other_near) = self.near.split_at_mut(half * WIDTH);
         let (boxes, other_boxes) = self.boxes.split_at_mut(half);
@@ -361,6 +342,7 @@ impl Pieces<'_> {
         let (one, other) = (
             Pieces {
                 numbers,
+                starts,
                 leaves,
                 near,
                 boxes,
@@ -368,6 +350,7 @@ impl Pieces<'_> {
             },
             Pieces {
                 numbers: other_numbers,
+                starts: other_starts,
                 leaves: other_leaves,
                 near: other_near,
                 boxes: other_boxes,
@@ -376,13 +359,6 @@ impl Pieces<'_> {
         );
         join(|| one.each(work), || other.each(work));
     }
-}
-
-fn extent(points: &[DVec3]) -> (DVec3, DVec3) {
-    let first = points[0];
-    points
-        .iter()
-        .fold((first, first), |(low, high), &p| (low.min(p), high.max(p)))
 }
 
 /// The extent of several together.

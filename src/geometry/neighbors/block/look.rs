@@ -4,7 +4,8 @@ use pulp::{Simd, WithSimd};
 
 use super::super::boxes::{DOUBLE_ROUNDING, SLACK, UNDERFLOW};
 use super::super::lanes::{BLOCK, Lanes, seldom};
-use super::super::tree::{LEAF, Tree};
+use super::super::leaf::LEAF;
+use super::super::tree::Tree;
 use super::{Block, Column, Looked};
 
 /// What rounding may add to or take off the squared distance from a point of a leaf, in units of
@@ -66,8 +67,8 @@ impl Block {
     ) {
         let [x, y, z] = queries;
         let mut nearest = [f64::INFINITY; BLOCK];
-        for place in tree.positions(leaf) {
-            let p = tree.place(leaf, place % LEAF);
+        for place in 0..tree.positions(leaf).len() {
+            let p = tree.place(leaf, place);
             for i in 0..BLOCK {
                 let d = [x[i] - p.x, y[i] - p.y, z[i] - p.z];
                 let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];

@@ -13,7 +13,8 @@ use look::{PLACE_ROUNDING, SUM_ROUNDING};
 
 use super::boxes::SLACK;
 use super::lanes::{BLOCK, Lanes, Looks};
-use super::tree::{LEAF, Tree};
+use super::leaf::LEAF;
+use super::tree::Tree;
 use super::walk::Reach;
 
 /// A coordinate of each query.
