@@ -33,6 +33,9 @@ const ROUND: usize = 8;
 /// Where fewer leaves wait, drawing the reach in is not worth its time.
 const MANY: usize = 24;
 
+/// Where a block looked into more leaves, a query asked again by itself walks: that leads to fewer.
+const MANY_LOOKED: usize = 64;
+
 /// Answers blocks of queries, each from where the block before it found its.
 ///
 /// To be used where code is built for the vector instructions `S`: all that it calls in its loops is
@@ -218,6 +221,10 @@ impl WithSimd for Again<'_> {
         let (index, block) = (self.index, self.block);
         if self.leaf.is_some() {
             return index.nearest_in(self.leaf.into_iter(), self.query);
+        }
+        if block.looked() > MANY_LOOKED {
+            let (leaf, _) = block.found(self.i);
+            return index.nearest_from::<S>(leaf, self.query);
         }
         if !block.knows_candidates() {
             block.look_again(simd, &index.tree, self.queries);

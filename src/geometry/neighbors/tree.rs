@@ -13,7 +13,7 @@ use super::walk::{Reach, Standpoint};
 use crate::geometry::parallel::{join, map_pieces};
 
 /// Leaves so many times as large as most are coarse.
-const COARSE: f32 = 32.0;
+const COARSE: f32 = 256.0;
 /// Queries that lie so many times as far from each other as small leaves are large may be in groups.
 const APART: f32 = 32.0;
 

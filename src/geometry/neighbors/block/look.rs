@@ -39,7 +39,7 @@ impl Block {
             };
             seldom(simd, look);
         } else {
-            self.look_closely::<S, KEEP>(simd, tree, leaf);
+            self.look_closely::<S, KEEP, true>(simd, tree, leaf);
         }
     }
 
@@ -109,8 +109,15 @@ impl Block {
         });
     }
 
+    /// Looks into a leaf in single precision. Returns whether it may hold something nearer to any query;
+    /// that is all where `TAKE` does not say that what was found is to be taken.
     #[inline(always)]
-    fn look_closely<S: Simd, const KEEP: bool>(&mut self, simd: S, tree: &Tree, leaf: usize) {
+    fn look_closely<S: Simd, const KEEP: bool, const TAKE: bool>(
+        &mut self,
+        simd: S,
+        tree: &Tree,
+        leaf: usize,
+    ) -> bool {
         let center = tree.leaf_center(leaf);
         let near = tree.leaf_near(leaf);
         // No closures: they would not be built for these instructions.
@@ -135,6 +142,8 @@ impl Block {
         let blur = SUM_ROUNDING * farther.abs();
         let rounding = simd.splat_f32s(beside + blur);
         let (x, y, z) = (&near.minus_twice[0], &near.minus_twice[1], &near.minus_twice[2]);
+        // One where something may be nearer.
+        let mut nearer = simd.splat_f32s(0.0);
         for from in (0..self.upper.parts::<S>().len()).step_by(2) {
             // Two vectors of queries at a time, since each comparison waits for the one before it.
             let mut w = [[simd.splat_f32s(0.0); 3]; 2];
@@ -164,8 +173,17 @@ impl Block {
             for k in 0..2 {
                 let squared = simd.add_f32s(base[k], least[k]);
                 let (upper, lower) = (simd.add_f32s(squared, rounding), simd.sub_f32s(squared, rounding));
-                self.take::<S, KEEP>(simd, from + k, upper, lower);
+                if TAKE {
+                    self.take::<S, KEEP>(simd, from + k, upper, lower);
+                } else {
+                    // Where rounding left no number, better look.
+                    let beyond = simd.greater_than_f32s(lower, self.upper.parts::<S>()[from + k]);
+                    nearer = simd.select_f32s(beyond, nearer, simd.splat_f32s(1.0));
+                }
             }
+        }
+        if !TAKE {
+            return simd.reduce_max_f32s(nearer) > 0.0;
         }
         if KEEP {
             self.lowers.push(self.latest);
@@ -176,6 +194,7 @@ impl Block {
             ties: 2.0 * (within + double + UNDERFLOW),
             blurred: blur > beside,
         });
+        true
     }
 
     /// Keeps the squared distances of the leaf that is looked into, as bounds, where they are least.
@@ -198,7 +217,7 @@ impl Block {
     }
 }
 
-/// [`Block::look_exactly`].
+/// [`Block::look_exactly`], where the leaf may hold something nearer to any query.
 struct LookExactly<'a, const KEEP: bool> {
     block: &'a mut Block,
     tree: &'a Tree,
@@ -211,7 +230,12 @@ impl<const KEEP: bool> WithSimd for LookExactly<'_, KEEP> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        self.block
-            .look_exactly::<S, KEEP>(simd, self.tree, self.queries, self.leaf);
+        let Self {
+            block, tree, leaf, ..
+        } = self;
+        // Mostly that is enough to tell that it holds nothing for them.
+        if block.look_closely::<S, false, false>(simd, tree, leaf) {
+            block.look_exactly::<S, KEEP>(simd, tree, self.queries, leaf);
+        }
     }
 }

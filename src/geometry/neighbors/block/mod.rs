@@ -23,10 +23,6 @@ pub(crate) type Column = [f64; BLOCK];
 /// Farther away than this many half extents of the points, squares are not trusted.
 const FAR: f32 = 1e12;
 
-/// How many groups of queries are answered apart at most, the last of which holds all that are left.
-const GROUPS: usize = 6;
-/// What is fewer is no group: the queries are spread out.
-const GROUP: u32 = 6;
 /// How close together a group lies, in units of how far the queries lie from their middle.
 const CLOSE: f32 = 0.125;
 
@@ -165,28 +161,23 @@ impl Block {
         ((x.abs() + y.abs() + z.abs()) as f32 + self.radius) < FAR
     }
 
-    /// The first `size` queries by which of them lie close together, a bit each, and how many such groups
-    /// there are: a single one where all lie about as close together as the points of leaves do, or are
-    /// spread out.
+    /// The first `size` queries in one group or two, a bit each: where most of them lie much closer together
+    /// than the others do, these are apart. A single group where all lie about as close together as the
+    /// points of leaves do.
     #[inline(always)]
-    pub(super) fn groups(&self, tree: &Tree, size: usize) -> ([u32; GROUPS], usize) {
-        let mut left = u32::MAX >> (BLOCK - size);
-        let mut groups = [left; GROUPS];
+    pub(super) fn groups(&self, tree: &Tree, size: usize) -> ([u32; 2], usize) {
+        let all = u32::MAX >> (BLOCK - size);
         if self.radius < tree.apart() {
-            return (groups, 1);
+            return ([all, 0], 1);
         }
-        let mut count = 0;
-        let many = |query| self.close_to(query).count_ones() >= GROUP;
-        if !many(0) && !many(size / 2) {
-            return (groups, 1);
+        // Most of them, one after the other, are the middle one's. What is less is looked for sooner
+        // together with all others than apart.
+        let group = self.close_to(size / 2) & all;
+        if 3 * group.count_ones() as usize >= 2 * size && group != all {
+            ([group, all & !group], 2)
+        } else {
+            ([all, 0], 1)
         }
-        while left != 0 {
-            let group = self.close_to(left.trailing_zeros() as usize) & left;
-            groups[count] = if count + 1 < GROUPS { group } else { left };
-            left &= !groups[count];
-            count += 1;
-        }
-        (groups, count)
     }
 
     /// The queries close to one of them, a bit each.
