@@ -118,7 +118,7 @@ fn in_clump(i: usize) -> DVec3 {
     (DVec3::new(0.819_172_513, 0.671_043_607, 0.549_700_478) * i as f64).fract() - 0.5
 }
 
-const AWKWARD: [(&str, Move); 8] = [
+const AWKWARD: [(&str, Move); 11] = [
     ("even", |_, at, _| at),
     ("equal coordinates", |_, at, _| (at * 20.0).round() / 20.0),
     ("a line", |i, _, d| {
@@ -134,8 +134,21 @@ const AWKWARD: [(&str, Move); 8] = [
         ELLIPSOID_CENTER + in_clump(i) * if i % 100 == 0 { 4.0 } else { 1e-4 }
     }),
     ("one far stray", |i, at, _| if i == 0 { at + 1e6 } else { at }),
+    ("a clump on a surface", |i, at, _| {
+        if i % 10 == 0 {
+            at
+        } else {
+            ELLIPSOID_CENTER - DVec3::Z + 1e-6 * in_clump(i)
+        }
+    }),
     ("a lattice of clumps", |_, _, d| {
         ELLIPSOID_CENTER + d.round() + 1e-6 * d
+    }),
+    ("a fine lattice of clumps", |_, _, d| {
+        ELLIPSOID_CENTER + (d * 4.0).round() / 4.0 + 1e-6 * d
+    }),
+    ("dense toward the middle", |i, _, d| {
+        ELLIPSOID_CENTER + d * (in_clump(i).x + 0.5).powi(12)
     }),
 ];
 
