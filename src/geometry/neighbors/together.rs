@@ -36,6 +36,10 @@ const MANY: usize = 24;
 /// Where a block looked into more leaves, a query asked again by itself walks: that leads to fewer.
 const MANY_LOOKED: usize = 64;
 
+/// Where single precision left so many queries of a block in doubt, the next one keeps what it finds in
+/// each leaf, so that it need not look again.
+const MANY_UNSURE: usize = 2;
+
 /// Answers blocks of queries, each from where the block before it found its.
 ///
 /// To be used where code is built for the vector instructions `S`: all that it calls in its loops is
@@ -45,6 +49,8 @@ pub(crate) struct Together<'a, S> {
     index: &'a Neighbors,
     /// The leaf in which the last query found its nearest.
     start: Option<usize>,
+    /// Whether single precision left several queries in doubt before.
+    doubtful: bool,
     block: Block,
     walk: Walk,
     /// Leaves that may be out of reach by the time all others have been looked into, and how far they
@@ -59,6 +65,7 @@ impl<'a, S: Simd> Together<'a, S> {
             simd,
             index,
             start: None,
+            doubtful: false,
             block: Block::empty(),
             walk: Walk::new(),
             waiting: [(0.0, 0); WAITING],
@@ -96,7 +103,7 @@ impl<'a, S: Simd> Together<'a, S> {
             };
             before = here;
             for again in [true, false] {
-                if self.block.refer_to(tree, start) {
+                if self.block.refer_to(tree, start, self.doubtful) {
                     let together = &mut *self;
                     seldom(
                         simd,
@@ -116,6 +123,7 @@ impl<'a, S: Simd> Together<'a, S> {
                 start = leaf;
             }
             let mut left = group;
+            let mut unsure = 0;
             for i in 0..group.count_ones() as usize {
                 let to = left.trailing_zeros() as usize;
                 left &= left - 1;
@@ -131,6 +139,7 @@ impl<'a, S: Simd> Together<'a, S> {
                         tree.positions(leaf).start + place,
                     )
                 } else {
+                    unsure += usize::from(!surely);
                     let (block, query) = (&mut self.block, query(to));
                     let again = Again {
                         index,
@@ -144,6 +153,7 @@ impl<'a, S: Simd> Together<'a, S> {
                 };
                 (nearest.position[to], nearest.distance_squared[to]) = (position as u32, distance);
             }
+            self.doubtful = unsure >= MANY_UNSURE;
             self.start = Some(self.block.found(BLOCK - 1).0);
         }
     }
@@ -187,7 +197,7 @@ impl<'a, S: Simd> Together<'a, S> {
     }
 }
 
-/// [`Together::walk_from`] where boxes may be small beside their distance.
+/// [`Together::walk_from`] where boxes may be small beside their distance or queries are left in doubt.
 struct WalkFarOff<'a, 'b, S> {
     together: &'a mut Together<'b, S>,
     start: usize,

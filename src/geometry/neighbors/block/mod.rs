@@ -199,9 +199,10 @@ impl Block {
     }
 
     /// Nothing is found yet. The distance of `leaf`'s center, or of a point of it, is what others are
-    /// compared with. Returns whether boxes may be small beside that.
+    /// compared with. Returns whether to walk with care: boxes may be small beside that, or queries before
+    /// were left in doubt, as `doubtful` says.
     #[inline(always)]
-    pub(super) fn refer_to(&mut self, tree: &Tree, leaf: usize) -> bool {
+    pub(super) fn refer_to(&mut self, tree: &Tree, leaf: usize, doubtful: bool) -> bool {
         self.find_nothing();
         self.toward = if tree.is_coarse(leaf) {
             tree.nearest_in_leaf(leaf, self.center)
@@ -215,7 +216,7 @@ impl Block {
             self.reference += c * c;
             twice[e] = 2.0 * c as f32;
         }
-        if !tree.is_far_off(self.reference) {
+        if !doubtful && !tree.is_far_off(self.reference) {
             return false;
         }
         for i in 0..BLOCK {
