@@ -12,6 +12,8 @@ pub mod evaluate;
 pub mod geometry;
 pub mod io;
 pub mod method;
+pub mod neighbors;
+pub mod parallel;
 pub mod reference;
 pub mod render;
 pub mod simulate;

@@ -5,9 +5,10 @@ mod common;
 use std::num::NonZeroUsize;
 
 use axiscope::geometry::{
-    Cloud, Extent, Neighbors, Spread, angle_between_directions_rad, angle_between_lines_rad,
-    estimate_normals, statistical_inliers, voxel_grid,
+    Cloud, Extent, Spread, angle_between_directions_rad, angle_between_lines_rad, estimate_normals,
+    statistical_inliers, voxel_grid,
 };
+use axiscope::neighbors::Neighbors;
 use common::{rotation, scattered, view};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;

@@ -2,12 +2,13 @@
 
 mod common;
 
-use axiscope::geometry::{Cancelled, Cloud, Unit, Watch};
+use axiscope::geometry::{Cloud, Unit};
 use axiscope::method::{
     Aggregation, AnalysisError, AxisError, CandidateGrid, CenterError, CenterMethod, Observe, ParamError,
     Params, PlaneTerm, PlaneTerms, Preset, RandomSearch, Ranking, SurfaceError, TAU_CM_PER_RAD, Warning,
     analyze, distance_deviation, find_center, fit_sphere, is_viewpoint_inside, rms_distance, symmetry_axis,
 };
+use axiscope::parallel::{Cancelled, Watch};
 use common::{rotation, scattered, view};
 use glam::DVec3;
 use proptest::prelude::*;

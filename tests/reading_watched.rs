@@ -3,9 +3,10 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use axiscope::geometry::{Cloud, Watch};
+use axiscope::geometry::Cloud;
 use axiscope::io::ply::{self, Encoding, Precision, WriteOptions};
 use axiscope::io::{ReadErrorKind, read_cloud, read_cloud_watched};
+use axiscope::parallel::Watch;
 use glam::DVec3;
 
 /// Notes all progress, and calls off once so much of it was told.

@@ -2,8 +2,9 @@
 
 mod common;
 
-use axiscope::geometry::{Cloud, Unit, Watch, voxel_edge_for, voxel_grid};
+use axiscope::geometry::{Cloud, Unit, voxel_edge_for, voxel_grid};
 use axiscope::method::{Analysis, CenterMethod, Filters, Params, Preset, Warning, analyze};
+use axiscope::parallel::Watch;
 use axiscope::view::ShownPoints;
 use common::{scattered, view};
 use glam::DVec3;

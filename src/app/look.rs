@@ -5,9 +5,10 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::geometry::{Cancelled, Cloud, Plane, Watch};
+use crate::geometry::{Cloud, Plane};
 use crate::io::Fruit;
 use crate::method::{Analysis, AxisEstimate, AxisSource, PlaneDetail, plane_detail, symmetry_axis};
+use crate::parallel::{Cancelled, Watch};
 use crate::reference::PeduncleSource;
 use crate::render::{Color, Scene};
 use crate::view::{

@@ -39,8 +39,9 @@ use std::time::Duration;
 use glam::DVec2;
 
 use crate::evaluate::sentence;
-use crate::geometry::{Cancelled, Extent};
+use crate::geometry::Extent;
 use crate::method::{AxisEstimate, PlaneDetail};
+use crate::parallel::Cancelled;
 use crate::render::{Camera, Viewport};
 use crate::view::ShownPoints;
 

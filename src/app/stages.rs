@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::evaluate::Request;
-use crate::geometry::{Unit, Watch};
+use crate::geometry::Unit;
 use crate::io::{
     CloudFile, Fruit, FruitError, PeduncleChoice, ReadError, ReadErrorKind, parse_cloud, read_cloud_watched,
 };
@@ -15,6 +15,7 @@ use crate::method::{
     Analysis, AnalysisError, CandidateGrid, CenterMethod, Filters, NormalSource, Observe, Params, PlaneTerms,
     Stage, UsedPoints, find_center, plane_terms, used_points,
 };
+use crate::parallel::Watch;
 use crate::view::ShownPoints;
 
 use super::samples::Sample;

@@ -9,7 +9,7 @@ use super::stages::{Source, WalkError, Walked};
 use super::worker::Crashed;
 use super::{App, Asked, PATIENCE, PLANES_PER_SECOND, PickQuestion, Seen, sentence_of_file};
 use crate::evaluate::{compared, sentence};
-use crate::geometry::Cancelled;
+use crate::parallel::Cancelled;
 use crate::view::pick_point;
 
 impl App {

@@ -7,8 +7,8 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::geometry::Watch;
 use crate::method::{Observe, Stage};
+use crate::parallel::Watch;
 
 /// Tells the interface that something has come.
 pub type Repaint = Arc<dyn Fn() + Send + Sync>;

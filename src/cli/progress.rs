@@ -3,8 +3,8 @@
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use axiscope::geometry::Watch;
 use axiscope::method::{Observe, Stage};
+use axiscope::parallel::Watch;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Watches one cloud being read and analyzed: a bar once it takes long enough to wonder, and a clock for each stage.

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{Examined, Request, Row, TruthChoice, examine, peduncle_disagreement_deg, reference_of};
 use crate::annotate::axis_file_of;
-use crate::geometry::Cancelled;
 use crate::io::{Fruit, FruitError, PeduncleChoice, ReadErrorKind, companion_path, removed_path, truth_path};
 use crate::method::{Analysis, AxisEstimate, Observe};
+use crate::parallel::Cancelled;
 use crate::reference::axis_error_rad;
 
 /// A reference axis that is known of a cloud.

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::{Examined, TruthChoice, reference_of};
-use crate::geometry::{Cancelled, Watch, angle_between_lines_rad};
+use crate::geometry::angle_between_lines_rad;
 use crate::method::{CandidateGrid, ParamError, Ranking, plane_terms, symmetry_axis};
+use crate::parallel::{Cancelled, Watch};
 
 /// The settings to try, each with each.
 #[derive(Debug, Clone, PartialEq)]

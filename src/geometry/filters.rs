@@ -4,8 +4,9 @@ use std::num::NonZeroUsize;
 
 use glam::DVec3;
 
-use super::parallel::map_pieces;
-use super::{Cancelled, Neighbors, Watch};
+use crate::neighbors::Neighbors;
+use crate::parallel::map_pieces;
+use crate::parallel::{Cancelled, Watch};
 
 /// The indices of the points that are no outliers: those whose mean distance to their `neighbors`
 /// nearest other points is at most the cloud's mean of that distance plus `std_ratio` times its

@@ -4,36 +4,25 @@
 //! before it is shown; whoever wants `f32` (the GPU, a search) subtracts a nearby origin first.
 
 mod cloud;
-mod eigen;
 mod extent;
 mod filters;
 mod line;
-mod neighbors;
 mod normals;
-mod parallel;
 mod plane;
 mod point_set;
 mod spread;
 mod unit;
 mod voxels;
-mod watch;
-
-pub(crate) use eigen::symmetric_eigen;
 
 pub use cloud::{Cloud, LengthMismatch};
 pub use extent::Extent;
 pub use filters::statistical_inliers;
 pub(crate) use line::angles_between_directions_rad;
 pub use line::{angle_between_directions_rad, angle_between_lines_rad};
-pub(crate) use neighbors::{BLOCK, Nearest, Together};
-pub use neighbors::{Neighbor, Neighbors};
 pub use normals::estimate_normals;
-pub use parallel::{Crew, map_pieces};
 pub use plane::Plane;
 pub use point_set::PointSet;
 pub use spread::Spread;
 pub use unit::Unit;
 pub(crate) use voxels::near_one_another;
 pub use voxels::{voxel_edge_for, voxel_grid};
-pub(crate) use watch::PartOf;
-pub use watch::{Cancelled, Watch};

@@ -10,8 +10,10 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::parallel::map_pieces;
-use super::{Cancelled, Neighbors, Spread, Watch};
+use super::Spread;
+use crate::neighbors::Neighbors;
+use crate::parallel::map_pieces;
+use crate::parallel::{Cancelled, Watch};
 
 /// Points whose neighborhoods are fitted between two looks at the watch: a few milliseconds.
 const PIECE: usize = 512;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::eigen::symmetric_eigen;
+use crate::neighbors::symmetric_eigen;
 
 /// Mean and covariance of weighted points.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,8 +3,9 @@
 
 use glam::{DVec3, I64Vec3, Vec3};
 
-use super::parallel::sort_unstable;
-use super::{Cancelled, Cloud, Watch};
+use super::Cloud;
+use crate::parallel::sort_unstable;
+use crate::parallel::{Cancelled, Watch};
 
 /// One point for each occupied cube of edge `edge` (the points' unit, positive): the mean position
 /// of the points in it, their mean normal and color, and their most frequent label (the lowest of

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use super::ply::{self, PlyCloud, PlyError, Problem};
-use crate::geometry::{Cancelled, PartOf, Watch};
+use crate::parallel::{Cancelled, PartOf, Watch};
 
 /// A cloud, and the file it came from.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,8 @@ use super::{
     CloudFile, PickedPoints, ReadError, read_annotations, read_cloud, read_cloud_watched, unit_guess,
 };
 use crate::annotate::Annotation;
-use crate::geometry::{Cloud, Unit, Watch};
+use crate::geometry::{Cloud, Unit};
+use crate::parallel::Watch;
 use crate::reference::{HueRange, Peduncle, PeduncleError};
 use crate::simulate::Truth;
 

@@ -9,7 +9,8 @@ use super::{
     NormalSource, ParamError, Params, PlaneTerms, Ranking, Surface, SurfaceError, find_center,
     is_viewpoint_inside, plane_terms, symmetry_axis,
 };
-use crate::geometry::{Cancelled, Cloud, Watch, statistical_inliers, voxel_edge_for, voxel_grid};
+use crate::geometry::{Cloud, statistical_inliers, voxel_edge_for, voxel_grid};
+use crate::parallel::{Cancelled, Watch};
 
 /// A stage of the analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

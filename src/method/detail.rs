@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::Surface;
 use super::partners::{Take, partners_once};
 use super::terms::PIECE;
-use crate::geometry::{Cancelled, Plane, Unit, Watch, map_pieces};
+use crate::geometry::{Plane, Unit};
+use crate::parallel::{Cancelled, Watch, map_pieces};
 
 /// Which side of a plane a point lies on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

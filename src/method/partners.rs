@@ -12,7 +12,8 @@ use glam::DVec3;
 use pulp::Simd;
 
 use super::Surface;
-use crate::geometry::{BLOCK, Nearest, Neighbors, Plane, Together, angles_between_directions_rad};
+use crate::geometry::{Plane, angles_between_directions_rad};
+use crate::neighbors::{BLOCK, Nearest, Neighbors, Together};
 
 /// Points that are reflected together: what the widest vectors hold of double precision.
 const LANES: usize = 8;

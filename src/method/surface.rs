@@ -5,7 +5,9 @@ use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 
-use crate::geometry::{Cancelled, Cloud, Neighbors, Spread, Watch, estimate_normals};
+use crate::geometry::{Cloud, Spread, estimate_normals};
+use crate::neighbors::Neighbors;
+use crate::parallel::{Cancelled, Watch};
 
 /// Why a cloud is no surface that the method could work on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

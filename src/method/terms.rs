@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::partners::{Ordered, Take};
 use super::{CandidateGrid, Surface};
-use crate::geometry::{Cancelled, Plane, Unit, Watch, map_pieces};
+use crate::geometry::{Plane, Unit};
+use crate::parallel::{Cancelled, Watch, map_pieces};
 
 /// The sums over one plane's points that have a visible partner. The score for any τ and any
 /// aggregation follows from them.

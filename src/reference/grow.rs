@@ -1,6 +1,8 @@
 //! A selection of points grows to its neighbors, and shrinks.
 
-use crate::geometry::{Cancelled, Extent, Neighbors, PointSet, Watch, map_pieces};
+use crate::geometry::{Extent, PointSet};
+use crate::neighbors::Neighbors;
+use crate::parallel::{Cancelled, Watch, map_pieces};
 use glam::DVec3;
 
 /// Places that a spacing is measured at.

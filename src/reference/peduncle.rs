@@ -1,8 +1,9 @@
 //! The peduncle, and the reference axis that it gives (§ 3.2).
 
 use super::{HueRange, hue_deg};
-use crate::geometry::{Cloud, Extent, Neighbors, PointSet, Spread};
+use crate::geometry::{Cloud, Extent, PointSet, Spread};
 use crate::method::{AxisEstimate, AxisSource};
+use crate::neighbors::Neighbors;
 use glam::DVec3;
 
 /// How a cloud's peduncle was told from its body.

@@ -5,8 +5,10 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use crate::geometry::{Cloud, Extent, Neighbors, map_pieces, near_one_another};
+use crate::geometry::{Cloud, Extent, near_one_another};
 use crate::method::{Analysis, Surface};
+use crate::neighbors::Neighbors;
+use crate::parallel::map_pieces;
 use crate::render::Color;
 
 /// The points of a cloud as shown beside its analysis. Columns are the cloud's own, not copies.
@@ -188,7 +190,7 @@ fn nearest_in(surface: &Surface, points: &[DVec3], edge: f64) -> Places {
     let pieces = map_pieces(order.len(), 4096, &(), |range| {
         let queries: Vec<DVec3> = order[range.clone()].iter().map(|&i| points[i]).collect();
         let index =
-            |n: &crate::geometry::Neighbor| (n.distance_squared <= farthest_squared).then_some(n.index);
+            |n: &crate::neighbors::Neighbor| (n.distance_squared <= farthest_squared).then_some(n.index);
         neighbors
             .nearest_of_each(&queries)
             .iter()

@@ -5,8 +5,8 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use crate::annotate::{Author, CloudAgreement, FAR_OFF_DEG, Files, LONGEST_FILE, SetAgreement, axis_file_of};
-use crate::geometry::{Cancelled, Watch};
 use crate::io::{DiskFiles, read_annotations, read_cloud};
+use crate::parallel::{Cancelled, Watch};
 
 /// How far annotators agree over the open clouds.
 #[derive(Debug, Clone, PartialEq)]

@@ -18,8 +18,8 @@ use crate::app::stages::Source;
 use crate::app::worker::{Lane, Repaint};
 use crate::app::{App, PATIENCE, Walked};
 use crate::evaluate::{compared, sentence};
-use crate::geometry::Cancelled;
 use crate::io::Fruit;
+use crate::parallel::Cancelled;
 use crate::view::ShownPoints;
 
 /// Points that tell how large a locked view has to be.

@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 
 use super::worker::{Lane, Repaint};
 use crate::evaluate::{Request, TruthChoice};
-use crate::geometry::Crew;
+use crate::parallel::Crew;
 
 #[cfg(feature = "window")]
 pub use pictures::pictures_of_worst;

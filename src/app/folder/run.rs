@@ -11,9 +11,9 @@ use std::time::{Duration, Instant};
 use super::cache::{Cache, Hash, params_hash, read_hash, row_key};
 use crate::app::worker::JobWatch;
 use crate::evaluate::{Outcome, Request, annotations_in, files_behind};
-use crate::geometry::{Crew, Watch};
 use crate::io::ReadErrorKind;
 use crate::method::Observe;
+use crate::parallel::{Crew, Watch};
 
 /// What is longer in the way than this is not waited for.
 const PATIENCE: Duration = Duration::from_secs(20);

@@ -13,8 +13,8 @@ use super::run::{Background, Polite};
 use crate::app::App;
 use crate::app::worker::{JobWatch, Lane, Repaint};
 use crate::evaluate::{Outcome, Request, Sweep, SweepSettings, TruthChoice, sweep_cloud};
-use crate::geometry::{Crew, Watch};
 use crate::method::CandidateGrid;
+use crate::parallel::{Crew, Watch};
 
 /// The most settings of τ that are tried.
 pub const MOST_TAUS: usize = 200;

@@ -11,8 +11,8 @@ use super::run::{Background, Polite};
 use crate::app::App;
 use crate::app::worker::{JobWatch, Lane, Repaint};
 use crate::evaluate::{Outcome, Request, TruthChoice, files_behind};
-use crate::geometry::Crew;
 use crate::io::{PictureSettings, annotation_paths, decode_picture, encode_picture};
+use crate::parallel::Crew;
 use crate::render::Image;
 use crate::view::Theme;
 

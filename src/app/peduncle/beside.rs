@@ -3,8 +3,8 @@
 use crate::app::App;
 use crate::app::stages::{Source, Stages, WalkError};
 use crate::evaluate::{Request, compared, sentence};
-use crate::geometry::Watch as _;
 use crate::method::AxisSource;
+use crate::parallel::Watch as _;
 use crate::reference::axis_error_rad;
 
 /// The axis' error against each reference in degrees, or why there is no axis.

@@ -211,7 +211,7 @@ fn mark(
         What::Hue(range) => {
             let colors = cloud.colors().unwrap_or_default();
             let is_in = |c: &Color| hue_deg(*c).is_some_and(|hue| range.contains(hue));
-            let found = crate::geometry::map_pieces(colors.len(), 1 << 15, &(), |piece| {
+            let found = crate::parallel::map_pieces(colors.len(), 1 << 15, &(), |piece| {
                 colors[piece].iter().map(is_in).collect::<Vec<_>>()
             });
             found.unwrap_or_default().concat()

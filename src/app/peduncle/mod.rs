@@ -181,7 +181,7 @@ pub(super) struct Work {
     marks: Lane<marks::Marking>,
     asked_marks: Option<marks::Wanted>,
     screens: marks::Screens,
-    edits: Lane<Result<edits::Edited, crate::geometry::Cancelled>>,
+    edits: Lane<Result<edits::Edited, crate::parallel::Cancelled>>,
     waiting_edits: VecDeque<edits::Edit>,
     /// The median spacing of a cloud's points, by its SHA-256, which takes a tree of them to tell.
     spacing: Option<(String, f64)>,

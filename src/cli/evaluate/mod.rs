@@ -11,7 +11,7 @@ use std::str::FromStr;
 use anyhow::Context;
 use axiscope::app::folder::{add_tags, read_tags};
 use axiscope::evaluate::{Row, Summary, Sweep, TruthChoice, result_files};
-use axiscope::geometry::{Watch, map_pieces};
+use axiscope::parallel::{Watch, map_pieces};
 use clap::{Args, ValueEnum};
 
 use super::options::AnalysisOptions;

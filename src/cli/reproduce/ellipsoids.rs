@@ -2,8 +2,8 @@
 
 use std::num::NonZeroUsize;
 
-use axiscope::geometry::{Watch, map_pieces};
 use axiscope::method::{Preset, Surface};
+use axiscope::parallel::{Watch, map_pieces};
 use axiscope::simulate::{EllipsoidSettings, seeds};
 use glam::DVec3;
 

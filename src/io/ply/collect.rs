@@ -6,7 +6,8 @@ use super::Note;
 use super::columns::{Columns, Role};
 use super::error::{PlyError, Problem};
 use super::scalar::Scalar;
-use crate::geometry::{Cloud, Watch};
+use crate::geometry::Cloud;
+use crate::parallel::Watch;
 
 /// Rows that are decoded before they are sorted into the cloud: few enough for all columns of a
 /// block to stay in the fastest cache.

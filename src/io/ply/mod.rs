@@ -23,7 +23,8 @@ pub use error::{Place, PlyError, Problem};
 pub use note::Note;
 pub use write::{Encoding, Precision, WriteError, WriteOptions, write};
 
-use crate::geometry::{Cloud, Unit, Watch};
+use crate::geometry::{Cloud, Unit};
+use crate::parallel::Watch;
 use collect::Collector;
 use columns::Columns;
 use header::Header;

@@ -12,7 +12,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::Preset;
-use crate::geometry::{Cancelled, Watch};
+use crate::parallel::{Cancelled, Watch};
 
 pub use random_search::{RandomSearch, distance_deviation, rms_distance};
 pub use sphere::fit_sphere;

@@ -6,8 +6,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::map_pieces;
-use crate::geometry::{Cancelled, Spread, Watch};
+use crate::geometry::Spread;
+use crate::parallel::map_pieces;
+use crate::parallel::{Cancelled, Watch};
 
 /// The random points that the center is picked from: normally distributed about the cloud's mean.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

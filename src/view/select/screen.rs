@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Region;
-use crate::geometry::map_pieces;
+use crate::parallel::map_pieces;
 use crate::render::{Camera, Viewport};
 
 /// All points of a cloud in one view. Made once for a camera, and asked with every move of a brush.

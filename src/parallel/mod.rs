@@ -9,7 +9,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-use super::{Cancelled, Watch};
+mod watch;
+
+pub(crate) use watch::PartOf;
+pub use watch::{Cancelled, Watch};
 
 /// Cuts `0..len` into ranges of `piece` (the last may be shorter), runs `work` on each, and returns
 /// the results in the order of the ranges.
@@ -93,7 +96,7 @@ impl Default for Crew {
 }
 
 /// Runs both, at the same time where there are cores for it.
-pub(super) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
+pub(crate) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
     rayon::join(a, b);
     #[cfg(not(feature = "parallel"))]
@@ -104,7 +107,7 @@ pub(super) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
 }
 
 /// Sorts on all cores.
-pub(super) fn sort_unstable<T: Ord + Send>(values: &mut [T]) {
+pub(crate) fn sort_unstable<T: Ord + Send>(values: &mut [T]) {
     #[cfg(feature = "parallel")]
     values.par_sort_unstable();
     #[cfg(not(feature = "parallel"))]

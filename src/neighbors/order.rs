@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 
 use super::gaps::half_at_gap;
 use super::leaf::LEAF;
-use crate::geometry::parallel::join;
+use crate::parallel::join;
 
 /// Points below which sorting is not worth another core.
 const ALONE: usize = 512;

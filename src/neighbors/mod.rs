@@ -20,6 +20,7 @@
 mod around;
 mod block;
 mod boxes;
+mod eigen;
 mod gaps;
 mod lanes;
 mod leaf;
@@ -32,6 +33,7 @@ mod walk;
 use glam::DVec3;
 use pulp::{Scalar, Simd};
 
+pub(crate) use eigen::symmetric_eigen;
 pub(crate) use lanes::BLOCK;
 use leaf::LEAF;
 use places::distinct_places;

@@ -10,7 +10,7 @@ use super::boxes::{Boxes, FAR_OFF_SQUARED, SLACK, WIDTH};
 use super::leaf::{LEAF, Leaf, Near, extent};
 use super::order::{Order, in_order};
 use super::walk::{Reach, Standpoint};
-use crate::geometry::parallel::{join, map_pieces};
+use crate::parallel::{join, map_pieces};
 
 /// Leaves so many times as large as most are coarse.
 const COARSE: f32 = 256.0;

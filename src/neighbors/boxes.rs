@@ -7,8 +7,8 @@
 use glam::DVec3;
 use pulp::Simd;
 
+use super::eigen::about_eigenvectors;
 use super::lanes::{BLOCK, Lanes};
-use crate::geometry::eigen::about_eigenvectors;
 
 /// Boxes that are tested together.
 pub(super) const WIDTH: usize = 16;
