@@ -8,7 +8,7 @@ use axiscope::annotate::{
     Annotation, CloudAgreement, CloudId, Ends, Finding, Judgment, Role, SetAgreement, mean_axis,
 };
 use axiscope::geometry::{Cloud, Unit};
-use axiscope::reference::{Peduncle, PeduncleError};
+use axiscope::peduncle::{Peduncle, PeduncleError};
 use cli::{json, run, simulate};
 use glam::{DQuat, DVec3};
 use serde_json::Value;

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use axiscope::annotate::{
     Annotation, Author, CloudId, Confidence, Ends, Judgment, Method, Notice, Store, StoreError,
 };
+use axiscope::annotate::{DiskFiles, read_annotations};
 use axiscope::geometry::Unit;
-use axiscope::io::{DiskFiles, read_annotations};
 use disk::Disk;
 use glam::DVec3;
 

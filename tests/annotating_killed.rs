@@ -7,9 +7,10 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use axiscope::annotate::DiskFiles;
 use axiscope::annotate::{Annotation, Author, CloudId, Store};
+use axiscope::fruit::sha256_hex;
 use axiscope::geometry::Unit;
-use axiscope::io::{DiskFiles, sha256_hex};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tempfile::TempDir;

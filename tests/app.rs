@@ -9,7 +9,7 @@ use axiscope::app::{
     App, Command, PlaneChoice, Sample, Session, SessionError, Source, Tool, analysis_options, command_line,
     quoted,
 };
-use axiscope::evaluate::Request;
+use axiscope::fruit::Request;
 use axiscope::method::{Aggregation, CenterMethod, Params, Preset, analyze};
 use axiscope::render::Viewport;
 use axiscope::view::{Coloring, Overlay, Theme, ViewPreset};

@@ -12,7 +12,7 @@ use axiscope::app::folder::{
 };
 use axiscope::app::{App, Command, Session};
 use axiscope::evaluate::{Row, TruthChoice, examine};
-use axiscope::io::Fruit;
+use axiscope::fruit::Fruit;
 use driving::{act, app, set, settle};
 use peppers::{make_older, write_peppers};
 use proptest::prelude::*;

@@ -307,13 +307,13 @@ fn the_peduncle_comes_from_labels_a_companion_or_color() {
     assert!(json(&labeled, "--peduncle none")["reference"].is_null());
 
     // The same fruit as two files, without labels in either.
-    let cloud = axiscope::io::read_cloud(&labeled).unwrap().ply.cloud;
+    let cloud = axiscope::fruit::read_cloud(&labeled).unwrap().ply.cloud;
     let labels = cloud.labels().unwrap();
     let write = |name: &str, keep: &dyn Fn(i32) -> bool| {
         let kept: Vec<usize> = (0..cloud.len()).filter(|&i| keep(labels[i])).collect();
         let part = axiscope::geometry::Cloud::new(cloud.select(&kept).positions().to_vec());
         let mut bytes = Vec::new();
-        axiscope::io::ply::write(&mut bytes, &part, &axiscope::io::ply::WriteOptions::default()).unwrap();
+        axiscope::ply::write(&mut bytes, &part, &axiscope::ply::WriteOptions::default()).unwrap();
         std::fs::write(folder.path().join(name), bytes).unwrap();
         folder.path().join(name)
     };

@@ -25,7 +25,7 @@ fn simulated_clouds_repeat_byte_by_byte_and_know_their_truth() {
     assert_eq!(truth["schema"], "axiscope.truth/1");
     let bare = simulate(&folder, "pepper --seed 9 --count 2 --without-peduncle", "c");
     let labels = |folder: &Path| {
-        axiscope::io::read_cloud(folder.join("pepper_001.ply"))
+        axiscope::fruit::read_cloud(folder.join("pepper_001.ply"))
             .unwrap()
             .ply
             .cloud

@@ -8,9 +8,10 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use axiscope::evaluate::{Request, TruthChoice, examine, reference_of};
+use axiscope::evaluate::{TruthChoice, examine, reference_of};
+use axiscope::fruit::Request;
+use axiscope::fruit::{Fruit, PeduncleChoice};
 use axiscope::geometry::Unit;
-use axiscope::io::{Fruit, PeduncleChoice};
 use axiscope::method::{CenterMethod, Params, Preset, RandomSearch};
 use cli::{json, run, simulate};
 use glam::DVec3;

@@ -1,6 +1,6 @@
 //! Figures: what they show, what they leave out, and that they are the same every time.
 
-use axiscope::io::figures::{
+use axiscope::charts::{
     BarChart, BarSeries, Figure, FigureError, Guide, HEIGHT, Heatmap, Histogram, Labels, LineChart,
     LinePanel, LinePoint, LineSeries, Scatter, ScatterSeries, WIDTH,
 };

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
+use axiscope::fruit::read_cloud;
 use axiscope::geometry::Unit;
-use axiscope::io::read_cloud;
 use axiscope::method::{Aggregation, CandidateGrid, Ranking, Surface, TAU_CM_PER_RAD, plane_terms};
 use glam::DVec3;
 use serde::Deserialize;

@@ -3,7 +3,7 @@
 
 use axiscope::geometry::{Cloud, PointSet, angle_between_lines_rad};
 use axiscope::method::AxisSource;
-use axiscope::reference::{Peduncle, PeduncleError, grown, median_spacing, shrunk};
+use axiscope::peduncle::{Peduncle, PeduncleError, grown, median_spacing, shrunk};
 use axiscope::render::{Camera, Viewport};
 use axiscope::view::{Brush, Lasso, Region, Screen};
 use glam::{DMat3, DQuat, DVec2, DVec3};

@@ -3,7 +3,7 @@
 mod ply_text;
 
 use axiscope::geometry::Cloud;
-use axiscope::io::ply::{Note, read};
+use axiscope::ply::{Note, read};
 use glam::{DVec3, Vec3};
 
 use ply_text::{XYZ, ascii, vertex};

@@ -3,7 +3,7 @@
 mod ply_text;
 
 use axiscope::geometry::Unit;
-use axiscope::io::ply::{Note, Place, read};
+use axiscope::ply::{Note, Place, read};
 use glam::DVec3;
 
 use ply_text::{XYZ, ascii, vertex};

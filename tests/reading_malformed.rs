@@ -1,7 +1,7 @@
 //! Malformed PLY files: each is refused in one line that names where and what.
 
-use axiscope::io::ply::{Place, read};
-use axiscope::io::{parse_cloud, read_cloud};
+use axiscope::fruit::{parse_cloud, read_cloud};
+use axiscope::ply::{Place, read};
 
 /// A file whose vertices are complete, with something replaced.
 fn changed(from: &str, to: &str) -> Vec<u8> {

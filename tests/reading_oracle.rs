@@ -1,6 +1,6 @@
 //! Reading PLY: an independent reader finds the same in the same file.
 
-use axiscope::io::ply::read;
+use axiscope::ply::read;
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property};
 use proptest::collection::vec;

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use axiscope::geometry::{Cloud, Unit};
-use axiscope::io::ply::{Encoding, PlyCloud, Precision, WriteError, WriteOptions, read, write};
+use axiscope::ply::{Encoding, PlyCloud, Precision, WriteError, WriteOptions, read, write};
 use glam::{DVec3, Vec3};
 use proptest::collection::vec;
 use proptest::prelude::*;

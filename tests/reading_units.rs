@@ -1,7 +1,7 @@
 //! The unit of a cloud, stated or guessed.
 
+use axiscope::fruit::unit_guess::{UnitSource, resolve};
 use axiscope::geometry::{Cloud, Unit};
-use axiscope::io::unit_guess::{UnitSource, resolve};
 use glam::DVec3;
 
 /// Points on a grid along x, of which the middle 96 % span `extent`.

@@ -3,10 +3,10 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use axiscope::fruit::{ReadErrorKind, read_cloud, read_cloud_watched};
 use axiscope::geometry::Cloud;
-use axiscope::io::ply::{self, Encoding, Precision, WriteOptions};
-use axiscope::io::{ReadErrorKind, read_cloud, read_cloud_watched};
 use axiscope::parallel::Watch;
+use axiscope::ply::{self, Encoding, Precision, WriteOptions};
 use glam::DVec3;
 
 /// Notes all progress, and calls off once so much of it was told.

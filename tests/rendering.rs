@@ -282,7 +282,7 @@ fn a_picture_carries_its_settings_and_is_drawn_again_from_them() {
     );
     assert_eq!(status, 0, "{err}");
     let first = std::fs::read(folder.path().join("a.png")).expect("written");
-    let settings = axiscope::io::picture_settings(&first).expect("it carries them");
+    let settings = axiscope::view::picture_settings(&first).expect("it carries them");
     assert_eq!(settings.cloud, "fruit.ply");
     assert_eq!(settings.sha256.len(), 64);
     assert!(settings.arguments.contains(&"2,3".to_owned()));

@@ -107,7 +107,7 @@ fn as_printed_fails_beside_as_intended() {
     let error = |harness: &Windowed| {
         let state = harness.state().app().state();
         let axis = state.analysis().and_then(|a| a.axis.clone()).expect("an axis");
-        axiscope::reference::axis_error_rad(&axis, state.reference().expect("a peduncle")).to_degrees()
+        axiscope::method::axis_error_rad(&axis, state.reference().expect("a peduncle")).to_degrees()
     };
     let intended = error(&harness);
     press(&mut harness, Modifiers::SHIFT, Key::I);

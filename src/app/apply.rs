@@ -8,11 +8,11 @@ use super::navigate::{framed_camera, preset_camera, projected};
 use super::stages::{Source, Walked};
 use super::state::{Command, PlaneChoice, Settings, Tool};
 use super::{App, PickQuestion};
-use crate::evaluate::Request;
+use crate::fruit::Request;
 use crate::geometry::Unit;
-use crate::io::{PictureSettings, encode_picture};
 use crate::method::{CenterMethod, Params, Preset};
 use crate::view::ViewPreset;
+use crate::view::{PictureSettings, encode_picture};
 
 impl App {
     /// Does what a panel asks for.

@@ -1,7 +1,7 @@
 //! What is said of the result in words, in the window and under a saved picture.
 
+use crate::method::axis_error_rad;
 use crate::method::{Analysis, AxisEstimate, Candidate, Warning};
-use crate::reference::axis_error_rad;
 
 /// The cloud and how it was read; the plane and what came of it.
 pub fn caption(

@@ -1,7 +1,8 @@
 //! The command line that draws what the window shows.
 
-use crate::evaluate::{Request, TruthChoice};
-use crate::io::PeduncleChoice;
+use crate::evaluate::TruthChoice;
+use crate::fruit::PeduncleChoice;
+use crate::fruit::Request;
 use crate::method::{Aggregation, CenterMethod, NormalSource, Params, Preset, RandomSearch, TAU_CM_PER_RAD};
 use crate::view::{Overlay, Theme};
 

@@ -6,14 +6,14 @@ use glam::DVec3;
 use super::caption::caption;
 use crate::evaluate::{Examined, TruthChoice, reference_of};
 use crate::geometry::Plane;
-use crate::io::{PictureError, paint_annotations, text_width_px};
+use crate::method::axis_error_rad;
 use crate::method::{Analysis, AxisEstimate, AxisSource, PlaneDetail, plane_detail, symmetry_axis};
-use crate::reference::axis_error_rad;
 use crate::render::{Camera, DrawError, Gpu, Image, Projection, Viewport, draw_image};
 use crate::view::{
     Coloring, ColoringError, Overlay, Overlays, Page, SceneSettings, ShownPoints, Subject, Theme, ViewPreset,
     annotate, build_scene, color_points, framed_points, insets, line_scale,
 };
+use crate::view::{PictureError, paint_annotations, text_width_px};
 
 /// What is drawn of a cloud, and how.
 #[derive(Debug, Clone, PartialEq)]

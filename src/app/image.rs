@@ -7,9 +7,9 @@ use crate::render::Image;
 /// Draws what the window shows, as `render` does; points keep their size relative to the picture.
 #[cfg(feature = "window")]
 pub(super) fn draw(state: &State, look: &Look, [width_px, height_px]: [u32; 2]) -> Result<Image, String> {
-    use crate::io::{paint_annotations, text_width_px};
     use crate::render::{Gpu, Viewport, draw_image};
     use crate::view::annotate;
+    use crate::view::{paint_annotations, text_width_px};
 
     let viewport = Viewport::new(width_px.into(), height_px.into());
     let ratio = picture_scale(state, height_px) / state.pixels_per_point;

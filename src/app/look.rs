@@ -5,11 +5,11 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::fruit::Fruit;
 use crate::geometry::{Cloud, Plane};
-use crate::io::Fruit;
 use crate::method::{Analysis, AxisEstimate, AxisSource, PlaneDetail, plane_detail, symmetry_axis};
 use crate::parallel::{Cancelled, Watch};
-use crate::reference::PeduncleSource;
+use crate::peduncle::PeduncleSource;
 use crate::render::{Color, Scene};
 use crate::view::{
     Coloring, ColoringError, Legend, NEUTRAL, Overlay, Overlays, SceneSettings, ShownPoints, Subject, Theme,

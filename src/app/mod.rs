@@ -38,11 +38,11 @@ use std::time::Duration;
 
 use glam::DVec2;
 
-use crate::evaluate::sentence;
 use crate::geometry::Extent;
 use crate::method::{AxisEstimate, PlaneDetail};
 use crate::parallel::Cancelled;
 use crate::render::{Camera, Viewport};
+use crate::text::sentence;
 use crate::view::ShownPoints;
 
 use details::Details;
@@ -72,7 +72,7 @@ const PATIENCE: Duration = Duration::from_millis(7);
 /// Planes that are played through in a second.
 const PLANES_PER_SECOND: f64 = 6.0;
 
-type Arrival = (Source, Arc<crate::io::Fruit>, Arc<ShownPoints>);
+type Arrival = (Source, Arc<crate::fruit::Fruit>, Arc<ShownPoints>);
 
 type WalkResult = (Stages, Result<Walked, WalkError>);
 
@@ -80,7 +80,7 @@ type WalkResult = (Stages, Result<Walked, WalkError>);
 #[derive(Debug, Clone, PartialEq)]
 struct Asked {
     source: Source,
-    settings: Box<crate::evaluate::Request>,
+    settings: Box<crate::fruit::Request>,
     /// Counts reloads.
     turn: u64,
 }

@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::evaluate::Request;
-use crate::geometry::Unit;
-use crate::io::{
+use crate::fruit::Request;
+use crate::fruit::{
     CloudFile, Fruit, FruitError, PeduncleChoice, ReadError, ReadErrorKind, parse_cloud, read_cloud_watched,
 };
+use crate::geometry::Unit;
 use crate::method::{
     Analysis, AnalysisError, CandidateGrid, CenterMethod, Filters, NormalSource, Observe, Params, PlaneTerms,
     Stage, UsedPoints, find_center, plane_terms, used_points,

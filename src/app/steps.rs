@@ -8,8 +8,9 @@ use super::navigate::{default_camera, framed_camera};
 use super::stages::{Source, WalkError, Walked};
 use super::worker::Crashed;
 use super::{App, Asked, PATIENCE, PLANES_PER_SECOND, PickQuestion, Seen, sentence_of_file};
-use crate::evaluate::{compared, sentence};
+use crate::evaluate::compared;
 use crate::parallel::Cancelled;
+use crate::text::sentence;
 use crate::view::pick_point;
 
 impl App {
@@ -54,7 +55,7 @@ impl App {
         // What another request was to show comes too late.
         while self.arrivals.1.try_recv().is_ok() {}
         self.analysis.submit(move |watch| {
-            let arrived = |fruit: &Arc<crate::io::Fruit>, shown| {
+            let arrived = |fruit: &Arc<crate::fruit::Fruit>, shown| {
                 // Nobody listens any more where the window has closed.
                 let _ = arrivals.send((wanted.source.clone(), fruit.clone(), shown));
                 repaint();

@@ -6,7 +6,7 @@ use super::caption::caption;
 use super::look::Look;
 use super::stages::Source;
 use super::state::State;
-use crate::reference::axis_error_rad;
+use crate::method::axis_error_rad;
 use crate::render::Viewport;
 use crate::view::{Legend, Overlay, Page};
 

@@ -8,10 +8,11 @@ use anyhow::Context;
 use axiscope::evaluate::{
     AnalysisReport, Examined, Timings, TruthChoice, examine, peduncle_disagreement_deg, reference_of,
 };
+use axiscope::fruit::Fruit;
 use axiscope::geometry::Unit;
-use axiscope::io::Fruit;
+use axiscope::method::axis_error_rad;
 use axiscope::method::{Aggregation, Analysis, AxisEstimate, CenterMethod, Stage};
-use axiscope::reference::{PeduncleSource, axis_error_rad};
+use axiscope::peduncle::PeduncleSource;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 

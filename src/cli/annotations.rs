@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use axiscope::annotate::exchange::{ImportedRow, read_table, write_table};
 use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement};
+use axiscope::annotate::{annotation_paths, read_annotations};
 use axiscope::evaluate::Row;
-use axiscope::io::{Fruit, PeduncleChoice, annotation_paths, read_annotations, read_cloud};
+use axiscope::fruit::{Fruit, PeduncleChoice, read_cloud};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 

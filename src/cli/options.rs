@@ -4,14 +4,14 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use axiscope::evaluate::Request;
+use axiscope::fruit::PeduncleChoice;
+use axiscope::fruit::Request;
 use axiscope::geometry::Unit;
-use axiscope::io::PeduncleChoice;
 use axiscope::method::{
     Aggregation, CandidateGrid, CenterMethod, Filters, NormalSource, OutlierFilter, Params, Preset,
     RandomSearch, TAU_CM_PER_RAD,
 };
-use axiscope::reference::HueRange;
+use axiscope::peduncle::HueRange;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use axiscope::app::{DrawingError, draw_cloud};
 use axiscope::evaluate::{Examined, examine};
-use axiscope::io::{Fruit, PictureSettings, encode_picture, picture_settings};
+use axiscope::fruit::Fruit;
 use axiscope::render::Gpu;
+use axiscope::view::{PictureSettings, encode_picture, picture_settings};
 use clap::Args;
 
 use super::options::AnalysisOptions;

@@ -1,43 +1,10 @@
 //! One cloud, analyzed and compared with every reference that is known of it.
 
 use crate::annotate::{Role, estimates};
-use crate::geometry::{Cloud, Unit};
-use crate::io::{Fruit, PeduncleChoice};
-use crate::method::{
-    Analysis, AnalysisError, AxisEstimate, AxisSource, NormalSource, Observe, Params, analyze,
-};
-use crate::reference::axis_error_rad;
+use crate::fruit::{Fruit, Request};
+use crate::method::{Analysis, AnalysisError, AxisEstimate, AxisSource, Observe, analyze, axis_error_rad};
+use crate::text::sentence;
 use serde::{Deserialize, Serialize};
-
-/// What to do with a cloud, before anything is known of it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Request {
-    /// The unit of its coordinates; `None` as the file states it, else guessed.
-    pub unit: Option<Unit>,
-    /// Where its peduncle is.
-    pub peduncle: PeduncleChoice,
-    /// Whether the peduncle's points are left out of the analysis.
-    pub without_peduncle: bool,
-    /// Where normals come from; `None` from the file where it has them.
-    pub normals: Option<NormalSource>,
-    /// Everything else. Its unit and source of normals are not looked at.
-    pub params: Params,
-}
-
-impl Request {
-    /// The parameters for this fruit: what was left open is settled.
-    pub fn params(&self, fruit: &Fruit) -> Params {
-        let of_file = |cloud: &Cloud| match cloud.normals() {
-            Some(_) => NormalSource::File,
-            None => NormalSource::Estimate,
-        };
-        Params {
-            unit: fruit.unit,
-            normals: self.normals.unwrap_or_else(|| of_file(fruit.cloud())),
-            ..self.params.clone()
-        }
-    }
-}
 
 /// Which reference an error is measured against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -158,14 +125,4 @@ pub fn peduncle_disagreement_deg(references: &[AxisEstimate]) -> Option<f64> {
     let first = reference_of(references, TruthChoice::Peduncle)?;
     let second = reference_of(references, TruthChoice::PeduncleDirection)?;
     Some(axis_error_rad(first, second).to_degrees())
-}
-
-/// An error's text as a sentence of its own.
-pub fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    let first: String = letters
-        .next()
-        .map(|c| c.to_uppercase().collect())
-        .unwrap_or_default();
-    format!("{first}{}.", letters.as_str())
 }

@@ -14,10 +14,8 @@ mod summary;
 mod sweep;
 mod table;
 
-pub use examine::{
-    Examined, Request, TruthChoice, compared, examine, peduncle_disagreement_deg, reference_of, sentence,
-};
-pub use outcome::{KnownAxis, Outcome, annotations_in, clouds_in, files_behind};
+pub use examine::{Examined, TruthChoice, compared, examine, peduncle_disagreement_deg, reference_of};
+pub use outcome::{KnownAxis, Outcome};
 pub use report::{AnalysisReport, SCHEMA, Timings};
 pub use results::{ResultsError, WorstPicture, result_files, worst_first};
 pub use row::Row;

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Examined, Request, TruthChoice, peduncle_disagreement_deg, reference_of};
+use super::{Examined, TruthChoice, peduncle_disagreement_deg, reference_of};
+use crate::fruit::Request;
 use crate::geometry::Unit;
+use crate::method::axis_error_rad;
 use crate::method::{Aggregation, AxisEstimate, CenterMethod, NormalSource, Params};
-use crate::reference::axis_error_rad;
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "axiscope.analysis/1";

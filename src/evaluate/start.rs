@@ -1,7 +1,7 @@
 //! Where an annotator may start from instead of nothing.
 
 use crate::annotate::{Ends, EndsError, Method};
-use crate::io::Fruit;
+use crate::fruit::Fruit;
 use crate::method::{Analysis, AxisEstimate, AxisSource};
 
 /// Why there is nothing to start from. A clause.

@@ -9,7 +9,7 @@ use egui::{
 };
 
 use crate::app::Command;
-use crate::evaluate::Request;
+use crate::fruit::Request;
 
 /// The width of the labels of one-line rows, in logical pixels.
 const LABEL_WIDTH: f32 = 92.0;

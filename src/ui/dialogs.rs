@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::app::PeduncleCommand;
 use crate::app::peduncle::PedunclePath;
-use crate::io::PeduncleChoice;
+use crate::fruit::PeduncleChoice;
 use rfd::{AsyncFileDialog, FileHandle};
 
 /// What somebody answered.

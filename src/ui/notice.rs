@@ -70,6 +70,6 @@ pub fn opacity(state: &State) -> f32 {
 /// Why no plane can be the symmetry plane, where that is so.
 pub fn if_no_plane(ui: &mut Ui, analysis: &crate::method::Analysis) {
     if let Err(none) = &analysis.best {
-        ui.label(crate::evaluate::sentence(&none.to_string()));
+        ui.label(crate::text::sentence(&none.to_string()));
     }
 }

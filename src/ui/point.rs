@@ -6,10 +6,10 @@ use glam::DVec3;
 use super::controls::{caution, hint, small};
 use crate::app::why::{Match, NEIGHBOR_COLOR, POINT_COLOR, REFLECTION_COLOR, Steps, Why, why};
 use crate::app::{Command, State};
-use crate::evaluate::sentence;
 use crate::geometry::Unit;
 use crate::method::Side;
 use crate::render::Color;
+use crate::text::sentence;
 
 /// Shows the steps of the picked point, else of the one under the cursor, and says what to do with it.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {

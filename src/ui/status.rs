@@ -4,7 +4,7 @@ use egui::{ProgressBar, RichText};
 
 use crate::app::{Command, State, lead_in_words};
 use crate::method::Stage;
-use crate::reference::axis_error_rad;
+use crate::method::axis_error_rad;
 
 /// What a stage is called while it runs.
 pub fn stage_name(stage: Stage) -> &'static str {

@@ -214,7 +214,7 @@ fn notices(ui: &egui::Ui, rect: Rect, state: &State) {
     }
     if let Some(why) = state.look.as_ref().and_then(|look| look.fallback) {
         let why = why.to_string();
-        lines.push(crate::evaluate::sentence(&why));
+        lines.push(crate::text::sentence(&why));
     }
     if state.is_stale {
         lines.push(if state.was_cancelled {

@@ -9,6 +9,7 @@ mod legend;
 mod overlays;
 mod palette;
 mod pick;
+mod picture;
 mod preset;
 mod scene;
 mod select;
@@ -21,6 +22,10 @@ pub use legend::{Legend, Ramp, Swatch};
 pub use overlays::{Overlay, Overlays};
 pub use palette::{NEUTRAL, PEDUNCLE_MARK, VALUE_STOPS, faded, value_color};
 pub use pick::pick_point;
+pub use picture::{
+    PictureError, PictureSettings, SETTINGS_KEY, decode_picture, encode_picture, paint_annotations,
+    picture_settings, text_width_px,
+};
 pub use preset::ViewPreset;
 pub use scene::{
     AXIS_COLOR, SceneSettings, build_bare_scene, build_scene, framed_cloud, framed_points, line_scale,

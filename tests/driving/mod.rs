@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use axiscope::app::{App, Command, Sample, Session};
-use axiscope::evaluate::Request;
+use axiscope::fruit::Request;
 
 /// A program with nothing open.
 pub fn app() -> App {

@@ -49,7 +49,7 @@ fn app_with(sample: Sample) -> App {
     app
 }
 
-fn set(app: &mut App, change: impl FnOnce(&mut axiscope::evaluate::Request)) {
+fn set(app: &mut App, change: impl FnOnce(&mut axiscope::fruit::Request)) {
     let mut request = app.state().settings.request.clone();
     change(&mut request);
     app.apply(Command::Set {

@@ -114,7 +114,7 @@ fn click(harness: &mut Harness<'_, Bench>, label: &str) {
 }
 
 /// The last request that was asked for, and its gesture.
-fn last_set(bench: &Bench) -> (axiscope::evaluate::Request, Option<&'static str>) {
+fn last_set(bench: &Bench) -> (axiscope::fruit::Request, Option<&'static str>) {
     let sets = bench.said.iter().rev().find_map(|command| match command {
         Command::Set { request, gesture } => Some(((**request).clone(), *gesture)),
         _ => None,

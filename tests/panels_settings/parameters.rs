@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use axiscope::app::{Command, Sample, Tool};
-use axiscope::io::PeduncleChoice;
+use axiscope::fruit::PeduncleChoice;
 use axiscope::method::{Aggregation, CenterMethod, NormalSource, Preset, TAU_CM_PER_RAD};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};

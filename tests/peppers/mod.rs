@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use axiscope::geometry::Unit;
-use axiscope::io::ply::{WriteOptions, write};
+use axiscope::ply::{WriteOptions, write};
 use axiscope::simulate::{DepthCamera, PepperSettings};
 
 /// Writes `count` peppers of some hundred points, with their truths, as if some time ago.

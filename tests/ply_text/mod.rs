@@ -1,6 +1,6 @@
 //! Short PLY files for tests, of which only what matters is spelled out.
 
-use axiscope::io::ply::{PlyCloud, read};
+use axiscope::ply::{PlyCloud, read};
 
 /// Reads a file of which only the header's middle and the body are given.
 pub fn ascii(elements: &str, body: &str) -> PlyCloud {

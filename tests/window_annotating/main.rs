@@ -10,10 +10,11 @@ mod looks;
 
 use std::path::{Path, PathBuf};
 
+use axiscope::annotate::DiskFiles;
 use axiscope::annotate::{Annotation, Author, CloudId, Ends, Judgment, Store};
 use axiscope::app::annotating::{EditView, Handle};
 use axiscope::app::{Annotating, Command, Session};
-use axiscope::io::{DiskFiles, Fruit, PeduncleChoice};
+use axiscope::fruit::{Fruit, PeduncleChoice};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::DVec2;

@@ -12,10 +12,10 @@ use std::sync::Arc;
 
 use axiscope::app::peduncle::Question;
 use axiscope::app::{Command, PeduncleCommand, Session, Tool};
+use axiscope::fruit::{PeduncleChoice, read_cloud};
 use axiscope::geometry::{Cloud, PointSet};
-use axiscope::io::ply::{WriteOptions, write};
-use axiscope::io::{PeduncleChoice, read_cloud};
-use axiscope::reference::{HueRange, Peduncle, PeduncleSource};
+use axiscope::peduncle::{HueRange, Peduncle, PeduncleSource};
+use axiscope::ply::{WriteOptions, write};
 use axiscope::view::{Overlay, ViewPreset};
 use driving::asset;
 use egui::{Key, Modifiers, PointerButton, Pos2, Vec2};

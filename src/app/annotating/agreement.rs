@@ -5,7 +5,8 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use crate::annotate::{Author, CloudAgreement, FAR_OFF_DEG, Files, LONGEST_FILE, SetAgreement, axis_file_of};
-use crate::io::{DiskFiles, read_annotations, read_cloud};
+use crate::annotate::{DiskFiles, read_annotations};
+use crate::fruit::read_cloud;
 use crate::parallel::{Cancelled, Watch};
 
 /// How far annotators agree over the open clouds.

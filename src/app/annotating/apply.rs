@@ -6,8 +6,9 @@ use super::desk::Deed;
 use super::{AnnotateCommand, Decision, Draft, Ghost, Grab, Handle, Saving, Turn};
 use crate::annotate::{Annotation, Ends, EndsError, Finding, Judgment, Method, Role, mean_axis};
 use crate::app::App;
-use crate::evaluate::{sentence, start_axis};
+use crate::evaluate::start_axis;
 use crate::render::Projection;
+use crate::text::sentence;
 
 impl App {
     pub(in crate::app) fn annotate(&mut self, command: AnnotateCommand) {

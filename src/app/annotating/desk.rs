@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::time::SystemTime;
 
 use crate::annotate::{Annotation, Author, CloudId, Judgment, Store, StoreError, rfc3339};
+use crate::annotate::{DiskFiles, read_annotations};
 use crate::geometry::Unit;
-use crate::io::{DiskFiles, read_annotations};
 
 /// A cloud's axis files.
 #[derive(Debug, Clone, PartialEq)]

@@ -17,9 +17,10 @@ use crate::app::queue::Queue;
 use crate::app::stages::Source;
 use crate::app::worker::{Lane, Repaint};
 use crate::app::{App, PATIENCE, Walked};
-use crate::evaluate::{compared, sentence};
-use crate::io::Fruit;
+use crate::evaluate::compared;
+use crate::fruit::Fruit;
 use crate::parallel::Cancelled;
+use crate::text::sentence;
 use crate::view::ShownPoints;
 
 /// Points that tell how large a locked view has to be.

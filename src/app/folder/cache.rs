@@ -17,8 +17,9 @@ use std::time::{Duration, SystemTime};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use crate::evaluate::{Outcome, Request};
-use crate::io::sha256_hex;
+use crate::evaluate::Outcome;
+use crate::fruit::Request;
+use crate::fruit::sha256_hex;
 
 /// Sets of parameters whose rows stay on disk.
 const KEPT_FILES: usize = 24;

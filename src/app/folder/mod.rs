@@ -23,7 +23,8 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::worker::{Lane, Repaint};
-use crate::evaluate::{Request, TruthChoice};
+use crate::evaluate::TruthChoice;
+use crate::fruit::Request;
 use crate::parallel::Crew;
 
 #[cfg(feature = "window")]

@@ -3,10 +3,12 @@
 use std::path::Path;
 
 use crate::app::{Drawing, analysis_options, draw_cloud};
-use crate::evaluate::{Examined, Request, Row, TruthChoice, WorstPicture, examine, worst_first};
-use crate::io::{Fruit, PictureSettings, encode_picture};
+use crate::evaluate::{Examined, Row, TruthChoice, WorstPicture, examine, worst_first};
+use crate::fruit::Fruit;
+use crate::fruit::Request;
 use crate::render::{Gpu, Image, Projection};
 use crate::view::{Coloring, Overlays, Theme, ViewPreset};
+use crate::view::{PictureSettings, encode_picture};
 
 /// The size of the report's pictures, in pixels.
 const REPORT_PX: [u32; 2] = [560, 420];

@@ -10,8 +10,9 @@ use std::time::{Duration, Instant};
 
 use super::cache::{Cache, Hash, params_hash, read_hash, row_key};
 use crate::app::worker::JobWatch;
-use crate::evaluate::{Outcome, Request, annotations_in, files_behind};
-use crate::io::ReadErrorKind;
+use crate::evaluate::Outcome;
+use crate::fruit::ReadErrorKind;
+use crate::fruit::{Request, annotations_in, files_behind};
 use crate::method::Observe;
 use crate::parallel::{Crew, Watch};
 

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::app::state::State;
 use crate::app::{App, analysis_options};
-use crate::evaluate::{Request, Row, Sweep, TruthChoice, WorstPicture, result_files};
+use crate::evaluate::{Row, Sweep, TruthChoice, WorstPicture, result_files};
+use crate::fruit::Request;
 
 /// Clouds that the report shows pictures of.
 #[cfg(feature = "window")]
@@ -118,7 +119,7 @@ impl App {
             let (is_error, text) = match result {
                 Ok(Ok(done)) => (false, done),
                 Ok(Err(problem)) => (true, problem),
-                Err(crash) => (true, crate::evaluate::sentence(&crash.to_string())),
+                Err(crash) => (true, crate::text::sentence(&crash.to_string())),
             };
             self.say(is_error, text);
         }

@@ -12,7 +12,8 @@ use super::FolderProgress;
 use super::run::{Background, Polite};
 use crate::app::App;
 use crate::app::worker::{JobWatch, Lane, Repaint};
-use crate::evaluate::{Outcome, Request, Sweep, SweepSettings, TruthChoice, sweep_cloud};
+use crate::evaluate::{Outcome, Sweep, SweepSettings, TruthChoice, sweep_cloud};
+use crate::fruit::Request;
 use crate::method::CandidateGrid;
 use crate::parallel::{Crew, Watch};
 
@@ -220,7 +221,7 @@ impl App {
             if let Err(crash) = result {
                 self.say(
                     true,
-                    crate::evaluate::sentence(&format!("the sweep broke off by {crash}")),
+                    crate::text::sentence(&format!("the sweep broke off by {crash}")),
                 );
             }
         }

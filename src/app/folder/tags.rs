@@ -11,9 +11,9 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use serde::{Deserialize, Serialize};
 
+use crate::annotate::DiskFiles;
 use crate::annotate::Files;
 use crate::app::worker::Repaint;
-use crate::io::DiskFiles;
 
 /// The file's name in the folder of the clouds.
 pub const TAGS_FILE: &str = "axiscope-tags.json";

@@ -8,13 +8,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::cache::{Hash, params_hash, read_hash, row_key};
 use super::run::{Background, Polite};
+use crate::annotate::annotation_paths;
 use crate::app::App;
 use crate::app::worker::{JobWatch, Lane, Repaint};
-use crate::evaluate::{Outcome, Request, TruthChoice, files_behind};
-use crate::io::{PictureSettings, annotation_paths, decode_picture, encode_picture};
+use crate::evaluate::{Outcome, TruthChoice};
+use crate::fruit::{Request, files_behind};
 use crate::parallel::Crew;
 use crate::render::Image;
 use crate::view::Theme;
+use crate::view::{PictureSettings, decode_picture, encode_picture};
 
 /// Pictures that are kept in memory.
 pub const KEPT_PICTURES: usize = 200;
@@ -195,7 +197,7 @@ impl Easel<'_> {
             let (outcome, examined) = Outcome::of_file("", path, request, &polite).ok()?;
             let Some(examined) = examined else {
                 let why = outcome.row().failure.clone().unwrap_or_default();
-                return Some(Err(crate::evaluate::sentence(&why)));
+                return Some(Err(crate::text::sentence(&why)));
             };
             let mut adapter = self.gpu.lock().unwrap_or_else(PoisonError::into_inner);
             Some(draw(&mut adapter, &examined, self.subject))

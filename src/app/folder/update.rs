@@ -263,7 +263,7 @@ impl App {
             if let Err(crash) = result {
                 self.say(
                     true,
-                    crate::evaluate::sentence(&format!("the evaluation broke off by {crash}")),
+                    crate::text::sentence(&format!("the evaluation broke off by {crash}")),
                 );
             }
             self.folder.is_evaluating = false;
@@ -282,7 +282,7 @@ impl App {
             if let Some(entry) = self.state.entries.get_mut(place) {
                 let failure = outcome.row().failure.as_deref();
                 let is_unusable = outcome.row().sha256.is_none();
-                entry.problem = failure.filter(|_| is_unusable).map(crate::evaluate::sentence);
+                entry.problem = failure.filter(|_| is_unusable).map(crate::text::sentence);
             }
             row.outcome = Some(outcome);
             row.is_stale = false;

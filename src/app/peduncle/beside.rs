@@ -2,10 +2,12 @@
 
 use crate::app::App;
 use crate::app::stages::{Source, Stages, WalkError};
-use crate::evaluate::{Request, compared, sentence};
+use crate::evaluate::compared;
+use crate::fruit::Request;
 use crate::method::AxisSource;
+use crate::method::axis_error_rad;
 use crate::parallel::Watch as _;
-use crate::reference::axis_error_rad;
+use crate::text::sentence;
 
 /// The axis' error against each reference in degrees, or why there is no axis.
 pub type Errors = Result<Vec<(AxisSource, f64)>, String>;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::app::App;
 use crate::geometry::PointSet;
-use crate::reference::{grown, median_spacing, shrunk};
+use crate::peduncle::{grown, median_spacing, shrunk};
 
 /// What is to be done with the selection.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,9 @@
 //! How a cloud's hues are spread, for the bar that a range of them is chosen on.
 
 use crate::app::App;
+use crate::fruit::PeduncleChoice;
 use crate::geometry::Cloud;
-use crate::io::PeduncleChoice;
-use crate::reference::hue_deg;
+use crate::peduncle::hue_deg;
 
 /// A histogram of hues.
 #[derive(Debug, Clone, PartialEq, Eq)]

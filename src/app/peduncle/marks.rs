@@ -7,9 +7,9 @@ use crate::app::App;
 use crate::app::PATIENCE;
 use crate::app::look::{Look, next_generation};
 use crate::app::state::Tool;
+use crate::fruit::{Fruit, PeduncleChoice};
 use crate::geometry::{Cloud, PointSet};
-use crate::io::{Fruit, PeduncleChoice};
-use crate::reference::{HueRange, hue_deg};
+use crate::peduncle::{HueRange, hue_deg};
 use crate::render::{Camera, Color, Scene, Viewport};
 use crate::view::{Brush, Lasso, PEDUNCLE_MARK, Region, Screen, Theme, faded};
 

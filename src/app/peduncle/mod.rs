@@ -20,8 +20,8 @@ use glam::DVec2;
 
 use super::state::Tool;
 use super::worker::{Lane, Progress, Repaint};
+use crate::fruit::PeduncleChoice;
 use crate::geometry::PointSet;
-use crate::io::PeduncleChoice;
 use crate::render::{Camera, Viewport};
 
 pub use beside::{Beside, Errors};

@@ -7,13 +7,14 @@ use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use axiscope::annotate::DiskFiles;
 use axiscope::annotate::exchange::{Placement, SlicerFrame, place, read_lines, write_line};
 use axiscope::annotate::{
     Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError,
 };
 use axiscope::evaluate::{Examined, examine, start_axis};
+use axiscope::fruit::Fruit;
 use axiscope::geometry::Extent;
-use axiscope::io::{DiskFiles, Fruit};
 use clap::{Args, ValueEnum};
 
 use super::options::AnalysisOptions;

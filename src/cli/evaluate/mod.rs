@@ -150,7 +150,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
 
 /// Every cloud in the folder, of which there is at least one.
 pub(super) fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
-    let clouds = axiscope::evaluate::clouds_in(folder).with_context(|| folder.display().to_string())?;
+    let clouds = axiscope::fruit::clouds_in(folder).with_context(|| folder.display().to_string())?;
     anyhow::ensure!(
         !clouds.is_empty(),
         "{}: there are no PLY files in this folder",

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use anyhow::Context;
-use axiscope::evaluate::{
-    Outcome, Request, Row, SweepSettings, TruthChoice, files_behind, sentence, sweep_cloud,
-};
-use axiscope::io::{annotation_paths, sha256_hex};
+use axiscope::annotate::annotation_paths;
+use axiscope::evaluate::{Outcome, Row, SweepSettings, TruthChoice, sweep_cloud};
+use axiscope::fruit::sha256_hex;
+use axiscope::fruit::{Request, files_behind};
+use axiscope::text::sentence;
 use serde::{Deserialize, Serialize};
 
 /// What is kept of one cloud.

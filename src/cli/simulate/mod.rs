@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use axiscope::geometry::Unit;
-use axiscope::io::ply::{self, WriteOptions};
+use axiscope::ply::{self, WriteOptions};
 use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, seeds};
 use clap::{Args, Subcommand, ValueEnum};
 use glam::DVec3;

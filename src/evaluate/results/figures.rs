@@ -1,9 +1,7 @@
 //! Charts of an evaluation: the error per cloud, its distribution, and against what it may depend on.
 
+use crate::charts::{BarChart, BarSeries, Figure, Guide, Heatmap, Histogram, Labels, Scatter, ScatterSeries};
 use crate::evaluate::{Row, Sweep};
-use crate::io::figures::{
-    BarChart, BarSeries, Figure, Guide, Heatmap, Histogram, Labels, Scatter, ScatterSeries,
-};
 
 /// Up to so many clouds each has a bar; beyond, a bar is no longer told from its neighbor.
 const MOST_BARS: usize = 120;

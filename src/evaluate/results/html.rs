@@ -4,7 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::{WorstPicture, worst_first};
-use crate::evaluate::{Request, Row, Summary};
+use crate::evaluate::{Row, Summary};
+use crate::fruit::Request;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 

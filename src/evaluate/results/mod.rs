@@ -8,8 +8,9 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Request, Row, Summary, Sweep, TableError, csv, parquet};
-use crate::io::figures::FigureError;
+use super::{Row, Summary, Sweep, TableError, csv, parquet};
+use crate::charts::FigureError;
+use crate::fruit::Request;
 
 /// A picture of one of the worst clouds, for the page.
 #[derive(Debug, Clone, PartialEq)]

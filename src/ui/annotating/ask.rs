@@ -6,7 +6,7 @@ use super::say;
 use crate::annotate::Author;
 use crate::app::annotating::Saving;
 use crate::app::{AnnotateCommand, Command, State};
-use crate::evaluate::sentence;
+use crate::text::sentence;
 
 /// Asks for the annotator's name, once.
 pub(in crate::ui) fn ask_name(ctx: &egui::Context, state: &State, commands: &mut Vec<Command>) {

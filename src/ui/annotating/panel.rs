@@ -7,7 +7,7 @@ use super::{agreement, own, say};
 use crate::annotate::{Author, Role};
 use crate::app::annotating::Saving;
 use crate::app::{AnnotateCommand, Command, Source, State};
-use crate::evaluate::sentence;
+use crate::text::sentence;
 
 /// Shows the panel, and says what is wanted.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {

@@ -212,7 +212,7 @@ fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: us
         // Why a cloud cannot be used stands in place of its picture.
         let usable = row.outcome.as_ref().filter(|o| o.row().sha256.is_some());
         let failure = usable.and_then(|_| row.failure(state.folder.against));
-        failure.map(crate::evaluate::sentence).unwrap_or_default()
+        failure.map(crate::text::sentence).unwrap_or_default()
     } else {
         row.tagged.tags.join(", ")
     };

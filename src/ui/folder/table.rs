@@ -349,7 +349,7 @@ fn explain(response: Response, row: &TableRow) {
             ui.label("Of other parameters than those in force.");
         }
         if let Some(failure) = &outcome.row().failure {
-            ui.label(crate::evaluate::sentence(failure));
+            ui.label(crate::text::sentence(failure));
         }
         if !outcome.row().warnings.is_empty() {
             ui.label(&outcome.row().warnings);

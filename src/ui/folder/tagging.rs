@@ -98,7 +98,7 @@ fn about(ui: &mut Ui, state: &State, row: &TableRow) {
         if let Some(error) = row.error_deg(state.folder.against) {
             ui.label(format!("{error:.1}° off"));
         } else if let Some(failure) = row.failure(state.folder.against) {
-            let text = RichText::new(crate::evaluate::sentence(failure)).color(warning_color(ui));
+            let text = RichText::new(crate::text::sentence(failure)).color(warning_color(ui));
             ui.add(Label::new(text).truncate());
         }
         let warnings = &outcome.row().warnings;

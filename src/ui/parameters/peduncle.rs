@@ -8,8 +8,8 @@ use super::super::controls::{Choice, Edit, Number, Slid, caution, choose, hint, 
 use super::super::peduncle::{beside, hue_bar, references};
 use crate::app::peduncle::PedunclePath;
 use crate::app::{Command, PeduncleCommand, State, Tool};
-use crate::io::PeduncleChoice;
-use crate::reference::{HueRange, Peduncle, PeduncleSource};
+use crate::fruit::PeduncleChoice;
+use crate::peduncle::{HueRange, Peduncle, PeduncleSource};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Way {

@@ -6,9 +6,10 @@ use super::super::controls::{caution, hint};
 use super::super::status::stage_name;
 use crate::app::peduncle::Errors;
 use crate::app::{Command, PeduncleCommand, State};
-use crate::evaluate::{peduncle_disagreement_deg, sentence};
+use crate::evaluate::peduncle_disagreement_deg;
 use crate::method::AxisSource;
-use crate::reference::axis_error_rad;
+use crate::method::axis_error_rad;
+use crate::text::sentence;
 use crate::view::{Overlay, reference_color};
 
 /// From this many degrees on a reference is not to be trusted blindly: about twice the published errors.

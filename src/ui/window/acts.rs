@@ -5,7 +5,7 @@ use egui::ViewportCommand;
 use super::Window;
 use crate::app::folder::evaluate_command_line;
 use crate::app::{Command, PeduncleCommand, command_line, quoted};
-use crate::io::companion_path;
+use crate::fruit::companion_path;
 use crate::ui::actions::{Act, Action, Group, WindowAct};
 use crate::ui::dialogs;
 use crate::ui::palette::Palette;

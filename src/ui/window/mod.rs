@@ -22,7 +22,7 @@ use super::{help, menu, peduncle, status, theme};
 use crate::app::folder::FolderCommand;
 use crate::app::worker::Repaint;
 use crate::app::{App, Command, PeduncleCommand, Session};
-use crate::io::companion_path;
+use crate::fruit::companion_path;
 
 /// How the window begins.
 pub struct Start {

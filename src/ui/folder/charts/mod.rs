@@ -118,7 +118,7 @@ fn failures(ui: &mut Ui, state: &State, data: &Data) -> Option<usize> {
                 .failure(state.folder.against)
                 .unwrap_or("there is no axis to compare with");
             let link = ui.link(RichText::new(&row.name).font(small(ui)));
-            if link.on_hover_text(crate::evaluate::sentence(why)).clicked() {
+            if link.on_hover_text(crate::text::sentence(why)).clicked() {
                 chosen = Some(mark.place);
             }
         }

@@ -51,7 +51,7 @@ pub struct PlyCloud {
 /// `float`.
 ///
 /// ```
-/// use axiscope::io::ply;
+/// use axiscope::ply;
 ///
 /// let file = b"ply
 /// format ascii 1.0

@@ -4,13 +4,12 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{
-    CloudFile, PickedPoints, ReadError, read_annotations, read_cloud, read_cloud_watched, unit_guess,
-};
+use super::{CloudFile, PickedPoints, ReadError, read_cloud, read_cloud_watched, unit_guess};
 use crate::annotate::Annotation;
+use crate::annotate::read_annotations;
 use crate::geometry::{Cloud, Unit};
 use crate::parallel::Watch;
-use crate::reference::{HueRange, Peduncle, PeduncleError};
+use crate::peduncle::{HueRange, Peduncle, PeduncleError};
 use crate::simulate::Truth;
 
 /// Where to look for the peduncle.

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::ply::{self, PlyCloud, PlyError, Problem};
 use crate::parallel::{Cancelled, PartOf, Watch};
+use crate::ply::{self, PlyCloud, PlyError, Problem};
 
 /// A cloud, and the file it came from.
 #[derive(Debug, Clone, PartialEq)]

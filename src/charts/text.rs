@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use ttf_parser::Face;
 
 /// `DejaVu Sans`: it has the degree sign, Greek, subscripts and the arrows that captions use.
-pub(super) const FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");
+pub(super) const FONT: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
 
 /// What an SVG asks for. Verdana has the same widths, the others are narrower: what fits here fits there.
 pub(super) const FONT_FAMILY: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
@@ -13,7 +13,7 @@ pub(super) const FONT_FAMILY: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sa
 static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(FONT, 0).ok());
 
 /// The width of `text` in units of the figure.
-pub(in crate::io) fn width(text: &str, size: u32) -> f64 {
+pub(crate) fn width(text: &str, size: u32) -> f64 {
     let size = f64::from(size);
     let Some(face) = FACE.as_ref() else {
         return text.chars().count() as f64 * 0.65 * size;

@@ -6,7 +6,7 @@ use std::io::Cursor;
 use resvg::{tiny_skia, usvg};
 use serde::{Deserialize, Serialize};
 
-use super::figures::{raster, text};
+use crate::charts::{raster, text};
 use crate::render::{Color, Image};
 use crate::view::{Anchor, Annotation};
 
