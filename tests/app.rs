@@ -5,9 +5,9 @@ mod driving;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use axiscope::app::command_line;
 use axiscope::app::{
-    App, Command, PlaneChoice, Sample, Session, SessionError, Source, Tool, analysis_options, command_line,
-    quoted,
+    App, Command, PlaneChoice, Sample, Session, SessionError, Source, Tool, analysis_options, quoted,
 };
 use axiscope::fruit::Request;
 use axiscope::method::{Aggregation, CenterMethod, Params, Preset, analyze};

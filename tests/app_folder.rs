@@ -7,7 +7,7 @@ mod peppers;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use axiscope::app::folder::{
+use axiscope::app::many::{
     Column, Filter, FolderCommand, Sort, SweepWish, TableRow, Tagged, evaluate_command_line, ordered,
 };
 use axiscope::app::{App, Command, Session};

@@ -5,7 +5,7 @@ mod peppers;
 
 use std::path::Path;
 
-use axiscope::app::folder::{FolderCommand, TAGS_FILE, Tagged};
+use axiscope::app::many::{FolderCommand, TAGS_FILE, Tagged};
 use axiscope::app::{App, Command};
 use driving::{act, app, set, settle};
 use peppers::write_peppers;
@@ -159,7 +159,7 @@ fn another_program_s_tags_are_kept() {
         let tagged = Tagged::default().with_tags("seen");
         act(app, folder(FolderCommand::Tag { place, tagged }));
     }
-    let tags = axiscope::app::folder::read_tags(&set).expect("they can be read");
+    let tags = axiscope::app::many::read_tags(&set).expect("they can be read");
     assert_eq!(tags.len(), 3);
     assert!(!set.join(format!("{TAGS_FILE}.tmp")).exists());
 }

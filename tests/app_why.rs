@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use axiscope::app::why::{Unexplained, why, why_lines};
+use axiscope::app::inspector::why::{Unexplained, why, why_lines};
 use axiscope::app::{App, Command, PlaneChoice, Sample, Session};
 use axiscope::geometry::Plane;
 use axiscope::method::{CenterMethod, Side, plane_detail};

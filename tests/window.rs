@@ -162,7 +162,7 @@ fn a_picked_point_is_explained() {
     let picked = axiscope::view::pick_point(&shown, &camera, viewport, middle, 4.0, 60.0).expect("a point");
     apply(&mut harness, Command::Pick(Some(picked)));
     snapshot(&mut harness, "picked_point");
-    assert!(axiscope::app::why::why(harness.state().app().state(), picked).is_some());
+    assert!(axiscope::app::inspector::why::why(harness.state().app().state(), picked).is_some());
     press(&mut harness, Modifiers::NONE, Key::Escape);
     assert_eq!(harness.state().app().state().picked, None);
 }
@@ -386,7 +386,7 @@ fn a_saved_view_is_drawn_again_by_the_command_line() {
 fn no_two_actions_share_a_key_and_every_one_is_in_the_help() {
     let harness = window();
     let state = harness.state().app().state();
-    let all = axiscope::ui::actions::actions(state);
+    let all = axiscope::ui::window::actions::actions(state);
     let mut keys: Vec<_> = all.iter().flat_map(|a| a.keys.iter()).collect();
     let count = keys.len();
     keys.sort_by_key(|key| format!("{key:?}"));

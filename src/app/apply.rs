@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use super::annotating::AnnotateCommand;
 use super::history::History;
-use super::navigate::{framed_camera, preset_camera, projected};
-use super::stages::{Source, Walked};
 use super::state::{Command, PlaneChoice, Settings, Tool};
 use super::{App, PickQuestion};
+use crate::app::inspector::navigate::{framed_camera, preset_camera, projected};
+use crate::app::inspector::stages::{Source, Walked};
+use crate::app::true_axes::AnnotateCommand;
 use crate::fruit::Request;
 use crate::geometry::Unit;
 use crate::method::{CenterMethod, Params, Preset};
@@ -325,7 +325,7 @@ impl App {
         };
         let state = self.state.clone();
         self.images.submit(move |_| {
-            let image = super::image::draw(&state, &look, size_px)?;
+            let image = crate::app::inspector::image::draw(&state, &look, size_px)?;
             let png = encode_picture(&image, &settings).map_err(|e| e.to_string())?;
             std::fs::write(&path, png).map_err(|e| format!("{}: {e}.", path.display()))?;
             Ok(format!("Saved {}.", path.display()))

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use super::stages::Source;
 use super::state::{Entry, State};
+use crate::app::inspector::stages::Source;
 use crate::fruit::clouds_in;
 
 /// Files that are remembered as opened lately.

@@ -8,29 +8,17 @@
 //! It knows no window toolkit: whatever draws it calls [`App::update`] once a frame, reads [`State`],
 //! and hands in [`Command`]s.
 
-pub mod annotating;
 mod apply;
-mod caption;
-mod command_line;
-mod details;
-#[cfg(feature = "window")]
-mod drawing;
 mod files;
-pub mod folder;
 mod history;
-mod image;
-pub mod look;
-mod navigate;
+pub mod inspector;
+pub mod many;
 pub mod peduncle;
-pub mod queue;
 mod samples;
 mod session;
-mod stages;
 mod state;
-mod steps;
-pub mod why;
-pub mod worker;
-mod written;
+pub mod true_axes;
+pub mod workers;
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -45,26 +33,25 @@ use crate::render::{Camera, Viewport};
 use crate::text::sentence;
 use crate::view::ShownPoints;
 
-use details::Details;
-use folder::{Folder, FolderState};
 use history::History;
-use look::{Look, Style};
-use stages::{Stages, WalkError};
-use worker::{Discard, Lane, Repaint};
+use inspector::details::Details;
+use inspector::look::{Look, Style};
+use inspector::stages::{Stages, WalkError};
+use many::{Folder, FolderState};
+use workers::{Discard, Lane, Repaint};
 
-pub use annotating::{AnnotateCommand, Annotating};
-pub use caption::{caption, grouped, lead_in_words};
-pub use command_line::{analysis_options, command_line, quoted};
-#[cfg(feature = "window")]
-pub use drawing::{Drawing, DrawingError, draw as draw_cloud};
 pub use history::History as UndoHistory;
-pub use navigate::{default_camera, dragged};
+pub use inspector::command_line::{analysis_options, command_line, quoted};
+#[cfg(feature = "window")]
+pub use inspector::drawing::{Drawing, DrawingError, draw as draw_cloud};
+pub use inspector::navigate::{default_camera, dragged};
+pub use inspector::stages::{Source, Walked};
+pub use inspector::written::Written;
 pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};
-pub use stages::{Source, Walked};
 pub use state::{Command, Entry, Message, PlaneChoice, Settings, State, Tool, TruthChoice};
-pub use written::Written;
+pub use true_axes::{AnnotateCommand, Annotating};
 
 /// A small cloud's results are waited for, so that they are in the frame that asked for them.
 const PATIENCE: Duration = Duration::from_millis(7);
@@ -133,7 +120,7 @@ pub struct App {
     /// The last click that was not answered yet.
     pending_click: Option<PickQuestion>,
     folder: Folder,
-    annotator: annotating::Annotator,
+    annotator: true_axes::Annotator,
 }
 
 impl App {
@@ -144,7 +131,7 @@ impl App {
     /// Where the operating system starts no thread.
     pub fn new(session: Session, repaint: &Repaint) -> std::io::Result<Self> {
         let mut state = State::new(session.settings, session.style.into());
-        state.annotating = annotating::Annotating::new(session.annotating);
+        state.annotating = true_axes::Annotating::new(session.annotating);
         state.recent = session.recent;
         state.interface_scale = session.interface_scale.clamp(0.5, 3.0);
         state.folder = FolderState::new(session.folder);
@@ -171,7 +158,7 @@ impl App {
             repaint: repaint.clone(),
             pending_click: None,
             folder: Folder::new(repaint)?,
-            annotator: annotating::Annotator::new(repaint)?,
+            annotator: true_axes::Annotator::new(repaint)?,
         })
     }
 

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::annotating::KeptAnnotating;
-use super::look::Style;
-use super::stages::Source;
 use super::state::{Settings, State};
+use crate::app::inspector::look::Style;
+use crate::app::inspector::stages::Source;
+use crate::app::true_axes::KeptAnnotating;
 use crate::view::{Coloring, Overlays, Theme};
 
 /// Settings, what was open, and how it was shown.
@@ -27,7 +27,7 @@ pub struct Session {
     /// Which of them was shown.
     pub current: Option<usize>,
     /// How the table of clouds was sorted and filtered.
-    pub folder: super::folder::KeptFolder,
+    pub folder: crate::app::many::KeptFolder,
     /// How large the interface was.
     pub interface_scale: f32,
     /// The arrangement of the panels, as the window wrote it.

@@ -7,13 +7,13 @@ use std::sync::Arc;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use super::annotating::{AnnotateCommand, Annotating, KeptAnnotating};
-use super::folder::{FolderCommand, FolderState};
-use super::look::{Look, Style};
 use super::peduncle::{PeduncleCommand, PeduncleState};
 use super::samples::Sample;
-use super::stages::{Source, Walked};
-use super::worker::Progress;
+use crate::app::inspector::look::{Look, Style};
+use crate::app::inspector::stages::{Source, Walked};
+use crate::app::many::{FolderCommand, FolderState};
+use crate::app::true_axes::{AnnotateCommand, Annotating, KeptAnnotating};
+use crate::app::workers::Progress;
 use crate::evaluate::reference_of;
 use crate::fruit::PeduncleChoice;
 use crate::fruit::Request;
@@ -202,7 +202,7 @@ impl State {
             messages: Vec::new(),
             is_software: false,
             interface_scale: 1.0,
-            folder: FolderState::new(super::folder::KeptFolder::default()),
+            folder: FolderState::new(crate::app::many::KeptFolder::default()),
             annotating: Annotating::new(KeptAnnotating::default()),
         }
     }

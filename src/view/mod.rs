@@ -3,6 +3,7 @@
 //! Nothing here draws. A window and a picture without one show the same, since both get it from here.
 
 mod annotation;
+mod caption;
 mod coloring;
 mod layout;
 mod legend;
@@ -16,6 +17,7 @@ mod select;
 mod shown;
 
 pub use annotation::{Anchor, Annotation, Theme};
+pub use caption::{caption, grouped, lead_in_words};
 pub use coloring::{Colored, Coloring, ColoringError, Subject, color_bare, color_labels, color_points};
 pub use layout::{Page, annotate, insets};
 pub use legend::{Legend, Ramp, Swatch};

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use axiscope::annotate::{Annotation, Author, Confidence, Ends, Finding, Judgment, Method, Pivot, Role};
-use axiscope::app::annotating::{Decision, Draft, EditView, Ghost, Handle, Saving, Turn};
+use axiscope::app::true_axes::{Decision, Draft, EditView, Ghost, Handle, Saving, Turn};
 use axiscope::app::{AnnotateCommand, App, Command, Sample, Session, Tool, TruthChoice};
 use axiscope::method::AxisSource;
 use axiscope::render::{Projection, Viewport};

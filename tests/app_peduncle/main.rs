@@ -9,8 +9,9 @@ mod picking;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use axiscope::app::command_line;
 use axiscope::app::peduncle::Question;
-use axiscope::app::{App, Command, PeduncleCommand, Session, Tool, command_line};
+use axiscope::app::{App, Command, PeduncleCommand, Session, Tool};
 use axiscope::evaluate::{TruthChoice, peduncle_disagreement_deg};
 use axiscope::fruit::{PeduncleChoice, PickedPoints, read_cloud};
 use axiscope::geometry::{Cloud, PointSet};

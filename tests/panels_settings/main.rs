@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axiscope::app::{App, Command, Sample, Session};
-use axiscope::ui::{contributions, files, parameters as parameters_panel, point, warnings};
+use axiscope::ui::panels::{contributions, files, parameters as parameters_panel, point, warnings};
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{Harness, SnapshotOptions};
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use axiscope::app::{Command, Sample};
 use axiscope::method::Preset;
-use axiscope::ui::files;
+use axiscope::ui::panels::files;
 use egui_kittest::SnapshotResults;
 use egui_kittest::kittest::Queryable as _;
 

@@ -2,7 +2,7 @@
 
 use axiscope::annotate::Pivot;
 use axiscope::app::AnnotateCommand;
-use axiscope::app::annotating::Ghost;
+use axiscope::app::true_axes::Ghost;
 
 use super::*;
 

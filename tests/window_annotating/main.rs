@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use axiscope::annotate::DiskFiles;
 use axiscope::annotate::{Annotation, Author, CloudId, Ends, Judgment, Store};
-use axiscope::app::annotating::{EditView, Handle};
+use axiscope::app::true_axes::{EditView, Handle};
 use axiscope::app::{Annotating, Command, Session};
 use axiscope::fruit::{Fruit, PeduncleChoice};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};

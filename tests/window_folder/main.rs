@@ -14,7 +14,7 @@ mod table;
 
 use std::path::Path;
 
-use axiscope::app::folder::{FolderCommand, Tagged};
+use axiscope::app::many::{FolderCommand, Tagged};
 use axiscope::app::{Command, Session};
 use in_window::{Windowed, apply, compare, press, settle, window_of};
 use peppers::write_peppers;

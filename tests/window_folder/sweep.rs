@@ -2,7 +2,7 @@
 
 use super::{press, settle, snapshot, window_on_peppers};
 use axiscope::app::Command;
-use axiscope::app::folder::{FolderCommand, SweepWish};
+use axiscope::app::many::{FolderCommand, SweepWish};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 

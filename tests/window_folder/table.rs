@@ -1,7 +1,7 @@
 //! The table: sorted, filtered and walked through; tags and notes.
 
 use super::{current, press, settle, snapshot, window_on_peppers};
-use axiscope::app::folder::{Column, Sort};
+use axiscope::app::many::{Column, Sort};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 

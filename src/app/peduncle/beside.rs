@@ -1,7 +1,7 @@
 //! The paper's two experiments on one cloud, side by side: with the peduncle and without it.
 
 use crate::app::App;
-use crate::app::stages::{Source, Stages, WalkError};
+use crate::app::inspector::stages::{Source, Stages, WalkError};
 use crate::evaluate::compared;
 use crate::fruit::Request;
 use crate::method::AxisSource;
@@ -76,7 +76,7 @@ fn errors(
     stages: &mut Stages,
     source: &Source,
     request: &Request,
-    watch: &crate::app::worker::JobWatch,
+    watch: &crate::app::workers::JobWatch,
 ) -> Errors {
     let walked = stages
         .walk(source, request, watch, &|_, _| {})

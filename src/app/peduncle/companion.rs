@@ -8,7 +8,7 @@ use super::{Question, Saved};
 use crate::annotate::DiskFiles;
 use crate::annotate::Files as _;
 use crate::app::App;
-use crate::app::stages::Source;
+use crate::app::inspector::stages::Source;
 use crate::fruit::{Fruit, companion_path};
 use crate::geometry::PointSet;
 use crate::ply::{Precision, WriteError, WriteOptions, write};

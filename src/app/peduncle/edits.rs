@@ -67,7 +67,7 @@ impl App {
 
     fn accept_edit(
         &mut self,
-        result: Result<Result<Edited, crate::parallel::Cancelled>, crate::app::worker::Crashed>,
+        result: Result<Result<Edited, crate::parallel::Cancelled>, crate::app::workers::Crashed>,
     ) {
         let edited = match result {
             Ok(Ok(edited)) => edited,

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::Stroke;
 use crate::app::App;
 use crate::app::PATIENCE;
-use crate::app::look::{Look, next_generation};
+use crate::app::inspector::look::{Look, next_generation};
 use crate::app::state::Tool;
 use crate::fruit::{Fruit, PeduncleChoice};
 use crate::geometry::{Cloud, PointSet};

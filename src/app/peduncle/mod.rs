@@ -19,7 +19,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::state::Tool;
-use super::worker::{Lane, Progress, Repaint};
+use crate::app::workers::{Lane, Progress, Repaint};
 use crate::fruit::PeduncleChoice;
 use crate::geometry::PointSet;
 use crate::render::{Camera, Viewport};

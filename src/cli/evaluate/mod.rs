@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::Context;
-use axiscope::app::folder::{add_tags, read_tags};
+use axiscope::app::many::{add_tags, read_tags};
 use axiscope::evaluate::{Row, Summary, Sweep, TruthChoice, result_files};
 use axiscope::parallel::{Watch, map_pieces};
 use clap::{Args, ValueEnum};
@@ -128,7 +128,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     #[cfg(feature = "window")]
     let pictures = {
         let (pictures, problem) =
-            axiscope::app::folder::pictures_of_worst(&args.folder, &rows, &request, args.pictures);
+            axiscope::app::many::pictures_of_worst(&args.folder, &rows, &request, args.pictures);
         if let Some(problem) = problem {
             eprintln!("Warning: {problem}");
         }

@@ -2,8 +2,8 @@
 
 use egui::{Key, Modifiers};
 
-use super::super::actions::{Action, Group};
 use crate::app::{Command, PeduncleCommand, State, Tool};
+use crate::ui::window::actions::{Action, Group};
 
 const NONE: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;

@@ -2,14 +2,14 @@
 
 use egui::{Color32, Grid, Label, ProgressBar, Ui};
 
-use super::super::controls::{caution, hint};
-use super::super::status::stage_name;
 use crate::app::peduncle::Errors;
 use crate::app::{Command, PeduncleCommand, State};
 use crate::evaluate::peduncle_disagreement_deg;
 use crate::method::AxisSource;
 use crate::method::axis_error_rad;
 use crate::text::sentence;
+use crate::ui::widgets::controls::{caution, hint};
+use crate::ui::window::status::stage_name;
 use crate::view::{Overlay, reference_color};
 
 /// From this many degrees on a reference is not to be trusted blindly: about twice the published errors.

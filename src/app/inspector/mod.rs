@@ -1,0 +1,13 @@
+//! The cloud that is looked at: its analysis, and the view of one of its candidate planes.
+
+pub(super) mod command_line;
+pub(super) mod details;
+#[cfg(feature = "window")]
+pub(super) mod drawing;
+pub(super) mod image;
+pub mod look;
+pub(super) mod navigate;
+pub(super) mod stages;
+mod update;
+pub mod why;
+pub(super) mod written;

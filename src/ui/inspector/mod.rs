@@ -1,0 +1,5 @@
+//! The 3-D view of the cloud that is looked at.
+
+pub(super) mod paint;
+pub(super) mod view3d;
+pub(super) mod view_bar;

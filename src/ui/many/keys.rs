@@ -1,0 +1,61 @@
+//! What can be done with the open clouds as a set, by key.
+
+use egui::{Key, Modifiers};
+
+use crate::app::many::FolderCommand;
+use crate::app::{Command, State};
+use crate::ui::window::actions::{Action, Group, WindowAct};
+use crate::ui::window::layout::Pane;
+
+/// The actions of this room.
+pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
+    let folder = &state.folder;
+    let pane = |title: &str, pane, key| {
+        Action::window(title, Group::Window, WindowAct::Show(pane)).key(Modifiers::COMMAND, key)
+    };
+    let has_files = folder.rows.iter().any(|row| row.path.is_some());
+    let evaluation = if folder.progress.is_some() {
+        Action::app(
+            Group::File,
+            "Stop evaluating the clouds",
+            Command::Folder(FolderCommand::Cancel),
+        )
+    } else {
+        Action::app(
+            Group::File,
+            "Evaluate all open clouds",
+            Command::Folder(FolderCommand::Evaluate),
+        )
+        // Where nothing is missing: files may have changed.
+        .when(has_files)
+    };
+    let worse = |title: &str, by, key| {
+        Action::app(Group::File, title, Command::Folder(FolderCommand::GoWorse(by)))
+            .key(Modifiers::SHIFT, key)
+            .when(folder.rows.len() > 1)
+            .repeating()
+    };
+    vec![
+        Action::window(
+            "Save the results of all clouds …",
+            Group::File,
+            WindowAct::SaveResults,
+        )
+        .key(Modifiers::COMMAND | Modifiers::SHIFT, Key::E)
+        .when(has_files && folder.missing == 0),
+        Action::window(
+            "Copy the command line that evaluates all clouds",
+            Group::File,
+            WindowAct::CopyEvaluation,
+        )
+        .when(has_files),
+        evaluation.key(Modifiers::COMMAND, Key::E),
+        worse("Cloud with the next smaller error", -1, Key::PageUp),
+        worse("Cloud with the next larger error", 1, Key::PageDown),
+        pane("Panel: View", Pane::View, Key::Num1),
+        pane("Panel: Table", Pane::Table, Key::Num2).key(Modifiers::COMMAND, Key::T),
+        pane("Panel: Charts", Pane::Charts, Key::Num3),
+        pane("Panel: Gallery", Pane::Gallery, Key::Num4),
+        pane("Panel: Sweep", Pane::Sweep, Key::Num5),
+    ]
+}
