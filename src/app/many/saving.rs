@@ -115,7 +115,7 @@ impl App {
     }
 
     pub(super) fn update_results(&mut self) {
-        if let Some((_, result)) = self.folder.results.take() {
+        if let Some(result) = self.folder.results.take() {
             let (is_error, text) = match result {
                 Ok(Ok(done)) => (false, done),
                 Ok(Err(problem)) => (true, problem),

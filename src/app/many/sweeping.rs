@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::FolderProgress;
 use super::run::{Background, Polite};
 use crate::app::App;
-use crate::app::workers::{JobWatch, Lane, Repaint};
+use crate::app::workers::{JobWatch, Lane, Pool};
 use crate::evaluate::{Outcome, Sweep, SweepSettings, TruthChoice, sweep_cloud};
 use crate::fruit::Request;
 use crate::method::CandidateGrid;
@@ -120,14 +120,14 @@ pub(super) struct Sweeper {
 }
 
 impl Sweeper {
-    pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
-            lane: Lane::new("sweep", repaint.clone())?,
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
+            lane: Lane::new(pool),
             swept: channel(),
             turn: 0,
             began: Instant::now(),
             of: None,
-        })
+        }
     }
 
     pub(super) fn is_busy(&self) -> bool {
@@ -216,7 +216,7 @@ impl App {
             now.params.tau_cm_per_rad = request.params.tau_cm_per_rad;
             now != *request || self.state.folder.against != *against
         });
-        if let Some((_, result)) = is_over {
+        if let Some(result) = is_over {
             sweep.progress = None;
             if let Err(crash) = result {
                 self.say(

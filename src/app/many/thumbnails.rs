@@ -10,7 +10,7 @@ use super::cache::{Hash, params_hash, read_hash, row_key};
 use super::run::{Background, Polite};
 use crate::annotate::annotation_paths;
 use crate::app::App;
-use crate::app::workers::{JobWatch, Lane, Repaint};
+use crate::app::workers::{JobWatch, Lane, Pool};
 use crate::evaluate::{Outcome, TruthChoice};
 use crate::fruit::{Request, files_behind};
 use crate::parallel::Crew;
@@ -62,9 +62,9 @@ pub(super) struct Studio {
 }
 
 impl Studio {
-    pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
-            lane: Lane::new("thumbnails", repaint.clone())?,
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
+            lane: Lane::new(pool),
             drawn: channel(),
             gpu: Arc::default(),
             wanted: Vec::new(),
@@ -72,7 +72,7 @@ impl Studio {
             turn: 0,
             subject: None,
             order: Vec::new(),
-        })
+        }
     }
 
     pub(super) fn is_busy(&self) -> bool {
