@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
-use super::history::History;
-use super::state::{Command, PlaneChoice, Settings, Tool};
-use super::{App, PickQuestion};
+use super::state::{Command, PlaneChoice, Tool};
+use super::{App, PickQuestion, Step};
 use crate::app::inspector::navigate::{framed_camera, preset_camera, projected};
 use crate::app::inspector::stages::{Source, Walked};
 use crate::app::true_axes::AnnotateCommand;
 use crate::fruit::Request;
 use crate::geometry::Unit;
 use crate::method::{CenterMethod, Params, Preset};
+use crate::undo::History;
 use crate::view::ViewPreset;
 use crate::view::{PictureSettings, encode_picture};
 
@@ -33,26 +33,15 @@ impl App {
             Command::Go(by) => self.go(by),
             Command::Close => self.close(),
             Command::Reload => {
-                self.discard.take(std::mem::take(&mut self.stages));
+                self.pool.discard(Some(std::mem::take(&mut self.stages)));
                 self.turn += 1;
             }
 
             Command::Set { request, gesture } => self.set(*request, gesture),
-            Command::EndGesture => {
-                self.history.end_gesture();
-                self.end_typing();
-            }
+            Command::EndGesture => self.undo.end_gesture(),
             Command::UsePreset(preset) => self.use_preset(preset),
-            Command::Undo => {
-                if !self.undo_tag() {
-                    self.travel(History::undo);
-                }
-            }
-            Command::Redo => {
-                if !self.redo_tag() {
-                    self.travel(History::redo);
-                }
-            }
+            Command::Undo => self.travel(History::undo),
+            Command::Redo => self.travel(History::redo),
             Command::Cancel => {
                 if self.analysis.progress().is_some() {
                     self.analysis.cancel();
@@ -196,7 +185,7 @@ impl App {
         if request == self.state.settings.request {
             return;
         }
-        self.history.remember(self.state.settings.clone(), gesture);
+        self.remember_settings(gesture);
         self.state.settings.request = request;
     }
 
@@ -210,10 +199,25 @@ impl App {
         self.set(request, None);
     }
 
-    fn travel(&mut self, way: fn(&mut History<Settings>, Settings) -> Option<Settings>) {
-        if let Some(settings) = way(&mut self.history, self.state.settings.clone()) {
-            self.state.settings = settings;
-            self.state.previewed = None;
+    /// The settings are about to change.
+    fn remember_settings(&mut self, gesture: Option<&str>) {
+        let before = Box::new(self.state.settings.clone());
+        self.undo.push_of_gesture(Step::Settings(before), gesture);
+    }
+
+    /// Undoes or redoes a step: its value and the present one change places.
+    fn travel(&mut self, way: fn(&mut History<Step>) -> Option<&mut Step>) {
+        match way(&mut self.undo) {
+            Some(Step::Settings(settings)) => {
+                std::mem::swap(&mut **settings, &mut self.state.settings);
+                self.state.previewed = None;
+            }
+            Some(Step::Tags { path, tagged }) => {
+                let now = self.folder.tagged(&self.state.folder.rows, path);
+                let (path, tagged) = (path.clone(), std::mem::replace(tagged, now));
+                self.set_tagged(path, tagged);
+            }
+            None => {}
         }
     }
 
@@ -224,7 +228,7 @@ impl App {
         }
         // Scrubbing through a hundred planes is one step back.
         let gesture = (plane != PlaneChoice::Best).then_some("plane");
-        self.history.remember(self.state.settings.clone(), gesture);
+        self.remember_settings(gesture);
         self.state.settings.plane = plane;
     }
 

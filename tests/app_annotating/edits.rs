@@ -124,7 +124,7 @@ fn ends_are_dragged_in_the_plane_that_faces_the_camera() {
     assert!(at.distance(BASE_PX + DVec2::new(30.0, 10.0)) < 1e-6, "{at}");
     let depth = |place| state.camera.depth_of(place);
     assert!((depth(after.peduncle_base()) - depth(before.peduncle_base())).abs() < 1e-9);
-    assert_eq!(state.annotating.reach.undo_steps(), 2, "one drag is one step");
+    assert_eq!(state.annotating.history.undo_steps(), 2, "one drag is one step");
     // Escape puts back what is held.
     annotate(
         &mut app,

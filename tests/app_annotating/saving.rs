@@ -16,8 +16,8 @@ fn undo_and_redo_survive_a_new_program() {
     drop(app);
 
     let mut app = editing(&paths);
-    let reach = &app.state().annotating.reach;
-    assert_eq!((reach.undo_steps(), reach.redo_steps()), (4, 2));
+    let history = &app.state().annotating.history;
+    assert_eq!((history.undo_steps(), history.redo_steps()), (4, 2));
     let ends = app.state().annotating.set_ends();
     // Files keep as many digits as a number has.
     assert_eq!(ends, left);
@@ -126,7 +126,7 @@ fn a_cloud_that_another_program_annotates_waits() {
         wanted
     );
     assert_eq!(
-        second.state().annotating.reach.undo_steps(),
+        second.state().annotating.history.undo_steps(),
         3,
         "the first one's edit is before them"
     );

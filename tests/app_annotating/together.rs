@@ -26,11 +26,11 @@ fn starts_are_recorded_for_good_and_refused_in_blind_mode() {
     assert_eq!(annotation.judgment.confidence, Some(Confidence::HIGH));
     assert_eq!(annotation.judgment.note, "dented");
     annotate(&mut app, AnnotateCommand::Start(Method::FromPeduncle));
-    let steps = app.state().annotating.reach.undo_steps();
+    let steps = app.state().annotating.history.undo_steps();
     annotate(&mut app, AnnotateCommand::Blind(true));
     annotate(&mut app, AnnotateCommand::Start(Method::FromComputed));
     assert_eq!(
-        app.state().annotating.reach.undo_steps(),
+        app.state().annotating.history.undo_steps(),
         steps,
         "hidden in blind mode"
     );
@@ -165,7 +165,7 @@ fn annotators_are_compared_and_decided_between() {
         app.state().references.iter().any(adjudicated),
         "it is a reference at once"
     );
-    assert_eq!(app.state().annotating.reach.undo_steps(), 2);
+    assert_eq!(app.state().annotating.history.undo_steps(), 2);
     // Leaving edit mode ends the role.
     annotate(&mut app, AnnotateCommand::Edit(false));
     assert_eq!(app.state().annotating.role, Role::Annotator);

@@ -22,7 +22,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::app::workers::{Lane, Repaint};
+use crate::app::workers::{Lane, Pool};
 use crate::evaluate::TruthChoice;
 use crate::fruit::Request;
 use crate::parallel::Crew;
@@ -37,7 +37,7 @@ pub use thumbnails::{KEPT_PICTURES, THUMBNAIL_PX, Thumbnail, Thumbnails};
 
 use run::{Background, Found};
 use sweeping::Sweeper;
-use tags::Scribe;
+use tags::TagStore;
 use thumbnails::Studio;
 
 /// Folders of up to so many clouds are evaluated as they are opened.
@@ -200,16 +200,6 @@ pub enum FolderCommand {
     },
 }
 
-/// One change of tags, for undo.
-#[derive(Debug, Clone)]
-struct TagEdit {
-    path: PathBuf,
-    before: Tagged,
-    after: Tagged,
-    /// How many settings could be undone when it was made: it comes between those and the next.
-    depth: usize,
-}
-
 /// What works behind [`FolderState`].
 pub(super) struct Folder {
     background: Background,
@@ -229,26 +219,24 @@ pub(super) struct Folder {
     began: std::time::Instant,
     worked_out: usize,
     places: HashMap<PathBuf, usize>,
-    scribe: Scribe,
+    tag_store: TagStore,
     studio: Studio,
     sweeper: Sweeper,
     results: Lane<Result<String, String>>,
     tags_read: HashSet<PathBuf>,
-    undone: Vec<TagEdit>,
-    done: Vec<TagEdit>,
-    /// Whether the next change of tags continues the last one.
-    is_typing: bool,
+    /// The tags and notes that were given in this session, which are newer than any file that is still to be read.
+    edited: HashMap<PathBuf, Tagged>,
 }
 
 impl Folder {
-    pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
             background: Background {
                 cache: Arc::new(Mutex::default()),
                 is_in_the_way: Arc::new(AtomicBool::new(false)),
             },
             crew: Arc::new(Crew::new()),
-            lane: Lane::new("folder", repaint.clone())?,
+            lane: Lane::new(pool),
             found: channel(),
             turn: 0,
             request: None,
@@ -259,19 +247,17 @@ impl Folder {
             began: std::time::Instant::now(),
             worked_out: 0,
             places: HashMap::new(),
-            scribe: Scribe::new(repaint.clone())?,
-            studio: Studio::new(repaint)?,
-            sweeper: Sweeper::new(repaint)?,
-            results: Lane::new("results", repaint.clone())?,
+            tag_store: TagStore::new(pool),
+            studio: Studio::new(pool),
+            sweeper: Sweeper::new(pool),
+            results: Lane::new(pool),
             tags_read: HashSet::new(),
-            undone: Vec::new(),
-            done: Vec::new(),
-            is_typing: false,
-        })
+            edited: HashMap::new(),
+        }
     }
 
     pub(super) fn is_busy(&self) -> bool {
         let is_drawing = self.studio.is_busy() || self.sweeper.is_busy() || self.results.is_busy();
-        self.lane.is_busy() || self.rested.is_some() || self.scribe.is_busy() || is_drawing
+        self.lane.is_busy() || self.rested.is_some() || self.tag_store.is_busy() || is_drawing
     }
 }

@@ -157,7 +157,7 @@ impl App {
         self.state.folder.rows = Arc::new(rows);
         for folder in folders {
             if self.folder.tags_read.insert(folder.clone()) {
-                self.folder.scribe.read(folder);
+                self.folder.tag_store.read(folder);
             }
         }
         self.look_up();
@@ -259,7 +259,7 @@ impl App {
             self.tell_progress();
             self.reorder();
         }
-        if let Some((_, result)) = is_over {
+        if let Some(result) = is_over {
             if let Err(crash) = result {
                 self.say(
                     true,

@@ -274,8 +274,8 @@ impl App {
         let annotating = &mut self.state.annotating;
         (annotating.draft, annotating.moving, annotating.grabbed) = (Draft::None, None, None);
         let steps = match deed {
-            Deed::Undo => annotating.reach.undo_steps(),
-            _ => annotating.reach.redo_steps(),
+            Deed::Undo => annotating.history.undo_steps(),
+            _ => annotating.history.redo_steps(),
         };
         if annotating.can_edit() && steps > 0 {
             self.act_on_axis(deed);

@@ -26,11 +26,11 @@ use crate::annotate::{
 use crate::geometry::{Extent, Unit};
 use crate::method::AxisSource;
 use crate::render::{Camera, Scene};
+use crate::undo::History;
 
 pub use agreement::SetReport;
 pub use blind::overlay_reveals;
 pub use commands::{AnnotateCommand, Decision, Turn};
-pub use desk::Reach;
 pub(super) use update::Annotator;
 pub use views::{EditView, Handle};
 
@@ -170,7 +170,7 @@ pub struct Annotating {
     /// The axis while it is dragged, before it counts.
     pub moving: Option<Ends>,
     /// What was said, and can be undone or done again.
-    pub reach: Reach,
+    pub history: History<Judgment>,
     /// Whether that is on the disk.
     pub saving: Saving,
     /// Other clouds whose axes could not be saved yet.
@@ -219,7 +219,7 @@ impl Annotating {
             landing: None,
             grabbed: None,
             moving: None,
-            reach: Reach::default(),
+            history: History::default(),
             saving: Saving::Nothing,
             unsaved_elsewhere: Vec::new(),
             notices: Vec::new(),
@@ -260,7 +260,7 @@ impl Annotating {
 
     /// What the annotator says of the cloud, saved or not.
     pub fn judgment(&self) -> Option<&Judgment> {
-        self.reach.current()
+        self.history.current()
     }
 
     /// The axis that counts; `None` where none is set, or it cannot be told.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::agreement::{SetReport, compare, set_by};
-use super::desk::{Deed, Keeper, Place, Report};
+use super::desk::{Deed, Keeper, Place, Report, act};
 use super::middle::middle;
 use super::scenes::{Made, Scenes, Wanted, scenes};
 use super::views::locked_cameras;
@@ -14,13 +14,13 @@ use glam::DVec3;
 
 use crate::annotate::{Author, CloudAgreement, CloudId, FAR_OFF_DEG};
 use crate::app::inspector::stages::Source;
-use crate::app::workers::Queue;
-use crate::app::workers::{Lane, Repaint};
+use crate::app::workers::{JobId, Lane, Pool, Queue};
 use crate::app::{App, PATIENCE, Walked};
 use crate::evaluate::compared;
 use crate::fruit::Fruit;
 use crate::parallel::Cancelled;
 use crate::text::sentence;
+use crate::undo::History;
 use crate::view::ShownPoints;
 
 /// Points that tell how large a locked view has to be.
@@ -36,8 +36,8 @@ const FOR_MIDDLE: usize = 4_000;
 pub(in crate::app) struct Annotator {
     files: Queue<Keeper, Report>,
     /// The job whose answer tells how things stand now.
-    newest: u64,
-    answered: u64,
+    newest: JobId,
+    answered: JobId,
     /// What the files were last turned to.
     turned_to: Option<(Place, Option<Author>)>,
     scenes: Lane<Scenes>,
@@ -49,19 +49,19 @@ pub(in crate::app) struct Annotator {
 }
 
 impl Annotator {
-    pub(in crate::app) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
-            files: Queue::new("axes", Keeper::default(), repaint.clone())?,
+    pub(in crate::app) fn new(pool: &Pool) -> Self {
+        Self {
+            files: Queue::new(pool, Keeper::default()),
             newest: 0,
             answered: 0,
             turned_to: None,
-            scenes: Lane::new("ghost", repaint.clone())?,
+            scenes: Lane::new(pool),
             scenes_asked: None,
             made: None,
-            set: Lane::new("agreement", repaint.clone())?,
-            mine: Lane::new("progress", repaint.clone())?,
+            set: Lane::new(pool),
+            mine: Lane::new(pool),
             mine_asked: None,
-        })
+        }
     }
 
     pub(in crate::app) fn is_busy(&self) -> bool {
@@ -168,7 +168,7 @@ impl App {
             let before = self.annotator.made.clone();
             self.annotator.scenes.submit(move |_| scenes(wanted, before));
         }
-        if let Some((_, Ok(Scenes { made, small }))) = self.annotator.scenes.take_within(PATIENCE) {
+        if let Some(Ok(Scenes { made, small })) = self.annotator.scenes.take_within(PATIENCE) {
             let annotating = &mut self.state.annotating;
             annotating.ghost_scene.clone_from(&made.main);
             annotating.small_scene = Some(small);
@@ -179,12 +179,12 @@ impl App {
     /// Hands a deed to the files, and shows it at once.
     pub(super) fn act_on_axis(&mut self, deed: Deed) {
         let annotating = &mut self.state.annotating;
-        annotating.reach.act(&deed);
+        act(&mut annotating.history, &deed);
         annotating.saving = Saving::Saving;
         if let (Some(place), Some(mine)) = (self.state.current, Some(Arc::make_mut(&mut annotating.mine)))
             && let Some(is_mine) = mine.get_mut(place)
         {
-            *is_mine = annotating.reach.current().is_some();
+            *is_mine = annotating.history.current().is_some();
         }
         self.annotator.newest = self.annotator.files.submit(move |keeper| keeper.act(deed));
     }
@@ -211,9 +211,9 @@ impl App {
     }
 
     fn take_reports(&mut self) {
-        while let Some(answer) = self.annotator.files.take_within(Duration::ZERO) {
-            self.annotator.answered += 1;
-            let is_newest = self.annotator.answered == self.annotator.newest;
+        while let Some((id, answer)) = self.annotator.files.take_within(Duration::ZERO) {
+            self.annotator.answered = id;
+            let is_newest = id == self.annotator.newest;
             match answer {
                 Ok(report) if is_newest => self.accept_report(report),
                 // Of what was there before the last edit.
@@ -229,11 +229,11 @@ impl App {
 
     fn accept_report(&mut self, report: Report) {
         let annotating = &mut self.state.annotating;
-        annotating.reach = report.reach;
+        annotating.history = report.history;
         annotating.axis_file = report.axis_file;
         annotating.saving = match report.problem {
             Some(problem) => Saving::Failed(problem),
-            None if annotating.reach == super::Reach::default() => Saving::Nothing,
+            None if annotating.history == History::default() => Saving::Nothing,
             None => Saving::Saved,
         };
         annotating.unsaved_elsewhere = report.unsaved_elsewhere;
@@ -298,7 +298,7 @@ impl App {
         }
         self.annotator.turned_to.clone_from(&wanted);
         let annotating = &mut self.state.annotating;
-        annotating.reach = super::Reach::default();
+        annotating.history = History::default();
         annotating.draft = Draft::None;
         (annotating.grabbed, annotating.moving) = (None, None);
         (annotating.axis_file, annotating.agreement) = (None, None);
@@ -313,9 +313,9 @@ impl App {
             .annotator
             .files
             .submit(move |keeper| keeper.turn_to(place, author));
-        if let Some(answer) = self.annotator.files.take_within(PATIENCE) {
-            self.annotator.answered += 1;
-            if let (Ok(report), true) = (answer, self.annotator.answered == self.annotator.newest) {
+        if let Some((id, answer)) = self.annotator.files.take_within(PATIENCE) {
+            self.annotator.answered = id;
+            if let (Ok(report), true) = (answer, id == self.annotator.newest) {
                 self.accept_report(report);
             }
         }
@@ -340,7 +340,7 @@ impl App {
     }
 
     fn ask_for_mine(&mut self) {
-        if let Some((_, Ok(mine))) = self.annotator.mine.take() {
+        if let Some(Ok(mine)) = self.annotator.mine.take() {
             self.state.annotating.mine = Arc::new(mine);
         }
         let author = self.state.annotating.author().ok();
@@ -361,7 +361,7 @@ impl App {
     }
 
     fn take_set(&mut self) {
-        if let Some((_, answer)) = self.annotator.set.take() {
+        if let Some(answer) = self.annotator.set.take() {
             self.state.annotating.set_progress = None;
             match answer {
                 Ok(Ok(report)) => self.state.annotating.set = Some(Arc::new(report)),

@@ -70,12 +70,12 @@ pub(in crate::ui) fn history(state: &State) -> Option<[Action; 3]> {
     Some([
         edit("Undo the axis edit", AnnotateCommand::Undo)
             .key(CTRL, Key::Z)
-            .when(annotating.can_edit() && annotating.reach.undo_steps() > 0)
+            .when(annotating.can_edit() && annotating.history.undo_steps() > 0)
             .repeating(),
         edit("Redo the axis edit", AnnotateCommand::Redo)
             .key(CTRL | SHIFT, Key::Z)
             .key(CTRL, Key::Y)
-            .when(annotating.can_edit() && annotating.reach.redo_steps() > 0)
+            .when(annotating.can_edit() && annotating.history.redo_steps() > 0)
             .repeating(),
         edit(escape, AnnotateCommand::Escape).key(NONE, Key::Escape),
     ])

@@ -194,7 +194,7 @@ fn changes(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         );
     });
     ui.horizontal(|ui| {
-        let (undo, redo) = (annotating.reach.undo_steps(), annotating.reach.redo_steps());
+        let (undo, redo) = (annotating.history.undo_steps(), annotating.history.redo_steps());
         for (text, steps, tip, command) in [
             (
                 format!("Undo ({undo})"),
