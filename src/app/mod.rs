@@ -37,7 +37,7 @@ use crate::view::ShownPoints;
 use inspector::details::Details;
 use inspector::look::{Look, Style};
 use inspector::stages::{Stages, WalkError};
-use many::{Folder, FolderState, Tagged};
+use many::{Many, ManyState, Tagged};
 use workers::{Lane, Pool, Repaint};
 
 pub use inspector::command_line::{analysis_options, command_line, quoted};
@@ -50,7 +50,7 @@ pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};
 pub use state::{Command, Entry, Message, PlaneChoice, Settings, State, Tool, TruthChoice};
-pub use true_axes::{AnnotateCommand, Annotating};
+pub use true_axes::{TrueAxesCommand, TrueAxesState};
 
 /// A small cloud's results are waited for, so that they are in the frame that asked for them.
 const PATIENCE: Duration = Duration::from_millis(7);
@@ -129,7 +129,7 @@ pub struct App {
     repaint: Repaint,
     /// The last click that was not answered yet.
     pending_click: Option<PickQuestion>,
-    folder: Folder,
+    many: Many,
     annotator: true_axes::Annotator,
 }
 
@@ -142,10 +142,10 @@ impl App {
     pub fn new(session: Session, repaint: &Repaint) -> std::io::Result<Self> {
         let pool = &Pool::new(repaint)?;
         let mut state = State::new(session.settings, session.style.into());
-        state.annotating = true_axes::Annotating::new(session.annotating);
+        state.true_axes = TrueAxesState::new(session.true_axes);
         state.recent = session.recent;
         state.interface_scale = session.interface_scale.clamp(0.5, 3.0);
-        state.folder = FolderState::new(session.folder);
+        state.many = ManyState::new(session.many);
         Ok(Self {
             state,
             undo: History::default(),
@@ -168,7 +168,7 @@ impl App {
             arrivals: channel(),
             repaint: repaint.clone(),
             pending_click: None,
-            folder: Folder::new(pool),
+            many: Many::new(pool),
             annotator: true_axes::Annotator::new(pool),
         })
     }
@@ -187,7 +187,7 @@ impl App {
 
     /// Whether the workers have anything to do, or to hand out.
     pub fn is_busy(&self) -> bool {
-        self.is_current_busy() || self.folder.is_busy()
+        self.is_current_busy() || self.many.is_busy()
     }
 
     /// Whether somebody waits for what they are doing: not for what is done for all clouds in the background.

@@ -185,7 +185,7 @@ impl App {
             self.seen = None;
             return;
         };
-        let is_blind = self.state.annotating.is_blind;
+        let is_blind = self.state.true_axes.is_blind;
         let wanted = Seen {
             shown_generation: self.shown_generation,
             plane: self.state.plane_index().filter(|_| !is_blind),

@@ -45,7 +45,7 @@ pub const EVALUATED_AT_ONCE: usize = 200;
 
 /// How far the evaluation of the open clouds is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FolderProgress {
+pub struct EvaluationProgress {
     /// Clouds that are done.
     pub done: usize,
     /// Clouds in all.
@@ -57,7 +57,7 @@ pub struct FolderProgress {
 /// What survives a restart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct KeptFolder {
+pub struct KeptMany {
     sort: Sort,
     filter: Filter,
     against: TruthChoice,
@@ -65,14 +65,14 @@ pub struct KeptFolder {
     folders: Vec<PathBuf>,
 }
 
-impl KeptFolder {
+impl KeptMany {
     /// The folders that were open: they may hold more clouds by now.
     pub fn folders(&self) -> &[PathBuf] {
         &self.folders
     }
 }
 
-impl Default for KeptFolder {
+impl Default for KeptMany {
     fn default() -> Self {
         Self {
             sort: Sort::default(),
@@ -86,7 +86,7 @@ impl Default for KeptFolder {
 
 /// The open clouds as a set: what there is to show of them.
 #[derive(Debug, Clone)]
-pub struct FolderState {
+pub struct ManyState {
     /// A row a cloud, in the order of the list.
     pub rows: Arc<Vec<TableRow>>,
     /// The places of those that are shown, in the order of the table.
@@ -100,7 +100,7 @@ pub struct FolderState {
     /// What errors are measured against in charts, gallery, filter and results.
     pub against: TruthChoice,
     /// How far the evaluation is; `None` where there is none under way.
-    pub progress: Option<FolderProgress>,
+    pub progress: Option<EvaluationProgress>,
     /// Clouds without a row of the parameters in force.
     pub missing: usize,
     /// Whether an evaluation was called off, or never begun.
@@ -115,8 +115,8 @@ pub struct FolderState {
     pub folders: Vec<PathBuf>,
 }
 
-impl FolderState {
-    pub(super) fn new(kept: KeptFolder) -> Self {
+impl ManyState {
+    pub(super) fn new(kept: KeptMany) -> Self {
         Self {
             rows: Arc::default(),
             order: Arc::default(),
@@ -135,8 +135,8 @@ impl FolderState {
         }
     }
 
-    pub(super) fn kept(&self) -> KeptFolder {
-        KeptFolder {
+    pub(super) fn kept(&self) -> KeptMany {
+        KeptMany {
             sort: self.sort,
             filter: self.filter.clone(),
             against: self.against,
@@ -161,7 +161,7 @@ impl FolderState {
 
 /// Something that is asked of the set of clouds.
 #[derive(Debug, Clone, PartialEq)]
-pub enum FolderCommand {
+pub enum ManyCommand {
     /// Analyze every open cloud that has no row of the parameters in force.
     Evaluate,
     /// Call that off; what is done stays.
@@ -200,8 +200,8 @@ pub enum FolderCommand {
     },
 }
 
-/// What works behind [`FolderState`].
-pub(super) struct Folder {
+/// What works behind [`ManyState`].
+pub(super) struct Many {
     background: Background,
     crew: Arc<Crew>,
     lane: Lane<()>,
@@ -228,7 +228,7 @@ pub(super) struct Folder {
     edited: HashMap<PathBuf, Tagged>,
 }
 
-impl Folder {
+impl Many {
     pub(super) fn new(pool: &Pool) -> Self {
         Self {
             background: Background {

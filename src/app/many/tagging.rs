@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use super::run::name_of;
 use super::tags::Answer;
-use super::{Filter, Folder, TableRow, Tagged};
+use super::{Filter, Many, TableRow, Tagged};
 use crate::app::{App, Step};
 
 impl App {
     pub(super) fn tag(&mut self, place: usize, tagged: Tagged) {
-        let Some(row) = self.state.folder.rows.get(place) else {
+        let Some(row) = self.state.many.rows.get(place) else {
             return;
         };
         let Some(path) = row.path.clone() else {
@@ -33,41 +33,41 @@ impl App {
     }
 
     pub(in crate::app) fn set_tagged(&mut self, path: PathBuf, tagged: Tagged) {
-        if let Some(&place) = self.folder.places.get(&path) {
-            let row = &mut Arc::make_mut(&mut self.state.folder.rows)[place];
+        if let Some(&place) = self.many.places.get(&path) {
+            let row = &mut Arc::make_mut(&mut self.state.many.rows)[place];
             row.tagged = tagged.clone();
             row.write_cells(place);
         }
-        self.folder.edited.insert(path.clone(), tagged.clone());
-        self.folder.tag_store.write(path, tagged);
+        self.many.edited.insert(path.clone(), tagged.clone());
+        self.many.tag_store.write(path, tagged);
         self.gather_tags();
         self.reorder();
     }
 
     fn gather_tags(&mut self) {
-        let rows = self.state.folder.rows.iter();
+        let rows = self.state.many.rows.iter();
         let tags: BTreeSet<&String> = rows.flat_map(|row| &row.tagged.tags).collect();
-        self.state.folder.known_tags = Arc::new(tags.into_iter().cloned().collect());
-        let is_gone = |tag: &String| !self.state.folder.known_tags.contains(tag);
-        if self.state.folder.filter.tag.as_ref().is_some_and(is_gone) {
-            self.state.folder.filter = Filter {
+        self.state.many.known_tags = Arc::new(tags.into_iter().cloned().collect());
+        let is_gone = |tag: &String| !self.state.many.known_tags.contains(tag);
+        if self.state.many.filter.tag.as_ref().is_some_and(is_gone) {
+            self.state.many.filter = Filter {
                 tag: None,
-                ..self.state.folder.filter.clone()
+                ..self.state.many.filter.clone()
             };
         }
     }
 
     /// What the thread that reads and writes tags has to tell.
     pub(super) fn take_tags(&mut self) {
-        while let Some(answer) = self.folder.tag_store.take() {
+        while let Some(answer) = self.many.tag_store.take() {
             match answer {
                 Answer::Read(folder, Ok(mut tags)) => {
-                    let rows = Arc::make_mut(&mut self.state.folder.rows);
+                    let rows = Arc::make_mut(&mut self.state.many.rows);
                     for (place, row) in rows.iter_mut().enumerate() {
                         let is_there = row.path.as_deref().and_then(Path::parent) == Some(&*folder);
                         // What was said while the file was read is newer.
                         let path = row.path.as_ref();
-                        let said = path.is_some_and(|path| self.folder.edited.contains_key(path));
+                        let said = path.is_some_and(|path| self.many.edited.contains_key(path));
                         if !is_there || said {
                             continue;
                         }
@@ -87,7 +87,7 @@ impl App {
     }
 }
 
-impl Folder {
+impl Many {
     /// The tags and the note of a cloud now, which may no longer be in the list.
     pub(in crate::app) fn tagged(&self, rows: &[TableRow], path: &Path) -> Tagged {
         let row = self.places.get(path).and_then(|&place| rows.get(place));

@@ -79,7 +79,7 @@ impl App {
     /// The cloud that is looked at has come, with its analysis or without.
     pub(in crate::app) fn set_subject(&mut self, fruit: &Fruit, shown: &ShownPoints) {
         let is_file = matches!(self.state.source(), Some(Source::File(path)) if *path == fruit.file.path);
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         if !is_file {
             annotating.subject = None;
             return;
@@ -118,7 +118,7 @@ impl App {
 
     /// The cloud that is looked at goes.
     pub(in crate::app) fn leave_subject(&mut self) {
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         annotating.subject = None;
         annotating.draft = Draft::None;
         (annotating.landing, annotating.grabbed, annotating.moving) = (None, None, None);
@@ -135,7 +135,7 @@ impl App {
 
     /// Once a frame, when the look is settled.
     pub(in crate::app) fn update_edit_scenes(&mut self) {
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         annotating.locked = annotating
             .subject
             .as_ref()
@@ -169,7 +169,7 @@ impl App {
             self.annotator.scenes.submit(move |_| scenes(wanted, before));
         }
         if let Some(Ok(Scenes { made, small })) = self.annotator.scenes.take_within(PATIENCE) {
-            let annotating = &mut self.state.annotating;
+            let annotating = &mut self.state.true_axes;
             annotating.ghost_scene.clone_from(&made.main);
             annotating.small_scene = Some(small);
             self.annotator.made = Some(made);
@@ -178,7 +178,7 @@ impl App {
 
     /// Hands a deed to the files, and shows it at once.
     pub(super) fn act_on_axis(&mut self, deed: Deed) {
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         act(&mut annotating.history, &deed);
         annotating.saving = Saving::Saving;
         if let (Some(place), Some(mine)) = (self.state.current, Some(Arc::make_mut(&mut annotating.mine)))
@@ -190,19 +190,19 @@ impl App {
     }
 
     pub(super) fn try_again(&mut self) {
-        self.state.annotating.saving = Saving::Saving;
+        self.state.true_axes.saving = Saving::Saving;
         self.annotator.newest = self.annotator.files.submit(Keeper::try_again);
     }
 
     pub(super) fn compare_set(&mut self) {
         let clouds = self.clouds();
         self.annotator.set.submit(move |watch| compare(&clouds, watch));
-        self.state.annotating.set_progress = Some(0.0);
+        self.state.true_axes.set_progress = Some(0.0);
     }
 
     pub(super) fn cancel_set(&mut self) {
         self.annotator.set.cancel();
-        self.state.annotating.set_progress = None;
+        self.state.true_axes.set_progress = None;
     }
 
     fn clouds(&self) -> Vec<PathBuf> {
@@ -220,7 +220,7 @@ impl App {
                 Ok(_) => {}
                 Err(crash) => {
                     let text = sentence(&format!("the axis could not be kept: {crash}"));
-                    self.state.annotating.saving = Saving::Failed(text.clone());
+                    self.state.true_axes.saving = Saving::Failed(text.clone());
                     self.say(true, text);
                 }
             }
@@ -228,7 +228,7 @@ impl App {
     }
 
     fn accept_report(&mut self, report: Report) {
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         annotating.history = report.history;
         annotating.axis_file = report.axis_file;
         annotating.saving = match report.problem {
@@ -271,7 +271,7 @@ impl App {
         let is_it = turned_to.is_some_and(|(place, _)| {
             place.path == walked.fruit.file.path && place.cloud.sha256 == walked.fruit.file.sha256
         });
-        let annotating = &self.state.annotating;
+        let annotating = &self.state.true_axes;
         let is_known = self.annotator.answered >= self.annotator.newest;
         if is_it && is_known && walked.fruit.annotations != annotating.annotations {
             let mut fruit = (*walked.fruit).clone();
@@ -282,7 +282,7 @@ impl App {
     }
 
     fn turn_to_subject(&mut self) {
-        let annotating = &self.state.annotating;
+        let annotating = &self.state.true_axes;
         let author = annotating.author().ok().filter(|_| annotating.is_editing);
         let wanted = annotating.subject.as_ref().map(|subject| {
             let place = Place {
@@ -297,7 +297,7 @@ impl App {
             return;
         }
         self.annotator.turned_to.clone_from(&wanted);
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         annotating.history = History::default();
         annotating.draft = Draft::None;
         (annotating.grabbed, annotating.moving) = (None, None);
@@ -328,7 +328,7 @@ impl App {
             .look
             .as_ref()
             .is_some_and(|look| look.analysis.is_some());
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         let Some(subject) = &annotating.subject else {
             annotating.was_seen = false;
             return;
@@ -341,9 +341,9 @@ impl App {
 
     fn ask_for_mine(&mut self) {
         if let Some(Ok(mine)) = self.annotator.mine.take() {
-            self.state.annotating.mine = Arc::new(mine);
+            self.state.true_axes.mine = Arc::new(mine);
         }
-        let author = self.state.annotating.author().ok();
+        let author = self.state.true_axes.author().ok();
         let entries = &self.state.entries;
         let wanted = author.filter(|_| !entries.is_empty()).map(|author| {
             let last = entries.last().map(|entry| entry.source.path().to_owned());
@@ -353,7 +353,7 @@ impl App {
             return;
         }
         self.annotator.mine_asked.clone_from(&wanted);
-        self.state.annotating.mine = Arc::default();
+        self.state.true_axes.mine = Arc::default();
         if let Some((author, ..)) = wanted {
             let clouds = self.clouds();
             self.annotator.mine.submit(move |_| set_by(&author, &clouds));
@@ -362,14 +362,14 @@ impl App {
 
     fn take_set(&mut self) {
         if let Some(answer) = self.annotator.set.take() {
-            self.state.annotating.set_progress = None;
+            self.state.true_axes.set_progress = None;
             match answer {
-                Ok(Ok(report)) => self.state.annotating.set = Some(Arc::new(report)),
+                Ok(Ok(report)) => self.state.true_axes.set = Some(Arc::new(report)),
                 Ok(Err(Cancelled)) => {}
                 Err(crash) => self.say(true, sentence(&crash.to_string())),
             }
         } else if let Some(progress) = self.annotator.set.progress() {
-            self.state.annotating.set_progress = Some(progress.share);
+            self.state.true_axes.set_progress = Some(progress.share);
         }
     }
 }
