@@ -24,4 +24,5 @@ pub mod simulate;
 pub mod text;
 #[cfg(feature = "window")]
 pub mod ui;
+pub mod undo;
 pub mod view;
