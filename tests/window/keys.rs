@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use axiscope::app::{AnnotateCommand, App, Command, Session, Tool};
-use axiscope::ui::window::actions::{Action, actions};
+use axiscope::ui::{Action, actions};
 
 /// A cloud, analyzed.
 fn app(folder: &Path) -> App {

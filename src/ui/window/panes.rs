@@ -3,12 +3,12 @@
 use egui::{Frame, Margin, Panel, ScrollArea, WidgetText};
 use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse};
 
-use super::actions::{Act, Action, WindowAct};
-use super::layout::Pane;
 use crate::app::{AnnotateCommand, Command, PeduncleCommand, State};
 use crate::render::Viewport;
+use crate::ui::action::{Act, Action, WindowAct};
 use crate::ui::inspector::{view_bar, view3d};
 use crate::ui::many::{self, FolderAnswer};
+use crate::ui::pane::Pane;
 use crate::ui::panels::files::{self, FilesAnswer};
 use crate::ui::panels::{contributions, hemisphere, parameters, point, ranking, score_map, scrub};
 use crate::ui::widgets::notice;
@@ -94,14 +94,17 @@ impl Panes<'_> {
 
     fn panel(&mut self, ui: &mut egui::Ui, pane: Pane) {
         let (state, commands) = (self.state, &mut *self.commands);
-        let is_free = matches!(pane, Pane::View | Pane::Files | Pane::Parameters | Pane::TrueAxis);
+        let is_free = matches!(
+            pane,
+            Pane::View | Pane::Clouds | Pane::Parameters | Pane::TrueAxes
+        );
         if state.annotating.is_blind && !is_free {
             notice::hidden(ui);
             return;
         }
         match pane {
             Pane::View => {}
-            Pane::Files => {
+            Pane::Clouds => {
                 if let Some(FilesAnswer::OpenDialog) = files::show(ui, state, commands) {
                     self.acts.push(Act::Window(WindowAct::OpenFiles));
                 }
@@ -114,7 +117,7 @@ impl Panes<'_> {
             Pane::ScoreMap => score_map::show(ui, state, commands),
             Pane::Hemisphere => hemisphere::show(ui, state, commands),
             Pane::Ranking => ranking::show(ui, state, commands),
-            Pane::Point => {
+            Pane::WhyThisScore => {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     point::show(ui, state, commands);
                 });
@@ -129,7 +132,7 @@ impl Panes<'_> {
                     }));
                 }
             }
-            Pane::TrueAxis => {
+            Pane::TrueAxes => {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     true_axes::show(ui, state, commands);
                 });
