@@ -42,6 +42,22 @@ fn the_sample_is_shown_analyzed() {
 }
 
 #[test]
+fn warnings_are_listed_behind_their_number() {
+    let mut harness = window();
+    apply(&mut harness, Command::OpenSample(Sample::MissedPepper));
+    apply(&mut harness, Command::UsePreset(Preset::AsPrinted));
+    let warned = harness.state().app().state().warnings.clone();
+    assert!(warned.len() > 1);
+    harness
+        .get_by_label(&format!("{} warnings", warned.len()))
+        .click();
+    settle(&mut harness);
+    for warning in &warned {
+        assert!(harness.query_by_label(warning).is_some(), "{warning}");
+    }
+}
+
+#[test]
 fn each_coloring_has_its_legend() {
     let mut harness = window();
     for coloring in Coloring::ALL {

@@ -8,7 +8,7 @@ use crate::app::many::evaluate_command_line;
 use crate::app::{Command, PeduncleCommand, quoted};
 use crate::fruit::companion_path;
 use crate::ui::action::{Act, Action, Group, WindowAct};
-use crate::ui::panels::scrub::walks_by_rank;
+use crate::ui::inspector::plane_bar::walks_by_rank;
 use crate::ui::window::dialogs;
 use crate::ui::window::palette::Palette;
 use crate::ui::window::save_image::SaveImage;

@@ -6,11 +6,10 @@ use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse
 use crate::app::{AnnotateCommand, Command, PeduncleCommand, State};
 use crate::render::Viewport;
 use crate::ui::action::{Act, Action, WindowAct};
-use crate::ui::inspector::{view_bar, view3d};
+use crate::ui::inspector::{plane_bar, view_bar, view3d};
 use crate::ui::many::{self, FolderAnswer};
 use crate::ui::pane::Pane;
-use crate::ui::panels::files::{self, FilesAnswer};
-use crate::ui::panels::{contributions, hemisphere, parameters, point, ranking, score_map, scrub};
+use crate::ui::panels::{clouds, contributions, hemisphere, parameters, ranking, score_map, why_this_score};
 use crate::ui::widgets::notice;
 use crate::ui::{peduncle, true_axes};
 
@@ -78,9 +77,11 @@ impl Panes<'_> {
             peduncle::bar(ui, self.state, self.actions, self.acts);
         });
         if !self.state.annotating.is_blind {
-            Panel::bottom("scrub").show_separator_line(false).show(ui, |ui| {
-                scrub::show(ui, self.state, self.commands);
-            });
+            Panel::bottom("plane bar")
+                .show_separator_line(false)
+                .show(ui, |ui| {
+                    plane_bar::show(ui, self.state, self.commands);
+                });
         }
         true_axes::hint_bar(ui, self.state);
         let is_in_locked = true_axes::locked_views(ui, self.state, self.is_gpu, self.commands);
@@ -105,9 +106,8 @@ impl Panes<'_> {
         match pane {
             Pane::View => {}
             Pane::Clouds => {
-                if let Some(FilesAnswer::OpenDialog) = files::show(ui, state, commands) {
-                    self.acts.push(Act::Window(WindowAct::OpenFiles));
-                }
+                let asked = clouds::show(ui, state, commands);
+                self.acts.extend(asked.map(Act::Window));
             }
             Pane::Parameters => {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -119,7 +119,7 @@ impl Panes<'_> {
             Pane::Ranking => ranking::show(ui, state, commands),
             Pane::WhyThisScore => {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                    point::show(ui, state, commands);
+                    why_this_score::show(ui, state, commands);
                 });
             }
             Pane::Contributions => contributions::show(ui, state, commands),
