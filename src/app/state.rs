@@ -12,7 +12,7 @@ use super::samples::Sample;
 use crate::app::inspector::look::{Look, Style};
 use crate::app::inspector::stages::{Source, Walked};
 use crate::app::many::{ManyCommand, ManyState};
-use crate::app::true_axes::{TrueAxesCommand, TrueAxesState, KeptTrueAxes};
+use crate::app::true_axes::{KeptTrueAxes, TrueAxesCommand, TrueAxesState};
 use crate::app::workers::Progress;
 use crate::evaluate::reference_of;
 use crate::fruit::PeduncleChoice;

@@ -7,6 +7,7 @@ pub(super) mod drawing;
 pub(super) mod image;
 pub mod look;
 pub(super) mod navigate;
+pub mod planes;
 pub(super) mod stages;
 mod update;
 pub mod why;

@@ -95,7 +95,8 @@ impl App {
         match taken {
             None => {}
             Some(Ok((stages, result))) => {
-                self.pool.discard(Some(std::mem::replace(&mut self.stages, stages)));
+                self.pool
+                    .discard(Some(std::mem::replace(&mut self.stages, stages)));
                 self.accept(result);
             }
             Some(Err(Crashed(fault))) => {

@@ -166,7 +166,11 @@ impl TagStore {
         drop(of_clouds);
         self.queue.submit(move |()| {
             // Of what is typed, letter by letter, only the newest need go to the disk.
-            let newest = newest.lock().unwrap_or_else(PoisonError::into_inner).get(&path).copied();
+            let newest = newest
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .get(&path)
+                .copied();
             if newest != Some(edit) {
                 return Answer::Written(Ok(()));
             }

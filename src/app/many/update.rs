@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use super::run::{Found, Task, run};
-use super::{EVALUATED_AT_ONCE, ManyCommand, EvaluationProgress, TableRow, ordered};
+use super::{EVALUATED_AT_ONCE, EvaluationProgress, ManyCommand, TableRow, ordered};
 use crate::app::state::State;
 use crate::app::{App, Source};
 use crate::evaluate::Outcome;

@@ -5,7 +5,7 @@ use std::time::Duration;
 use egui::{Button, ProgressBar, Ui, vec2};
 
 use super::FolderAnswer;
-use crate::app::many::{ManyCommand, EvaluationProgress};
+use crate::app::many::{EvaluationProgress, ManyCommand};
 use crate::app::{Command, State, TruthChoice};
 use crate::ui::widgets::controls::{Choice, choose};
 

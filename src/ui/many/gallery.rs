@@ -10,7 +10,7 @@ use egui::{
 };
 
 use super::{FolderAnswer, bar};
-use crate::app::many::{ManyCommand, KEPT_PICTURES, THUMBNAIL_PX};
+use crate::app::many::{KEPT_PICTURES, ManyCommand, THUMBNAIL_PX};
 use crate::app::{Command, State};
 use crate::render::Image;
 use crate::ui::widgets::controls::{small, warning_color};

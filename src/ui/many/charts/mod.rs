@@ -195,10 +195,7 @@ fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> 
 /// Says which cloud is under the cursor.
 fn explain(response: &Response, state: &State, place: usize) {
     let row = &state.many.rows[place];
-    let off = match (
-        row.error_deg(state.many.against),
-        row.failure(state.many.against),
-    ) {
+    let off = match (row.error_deg(state.many.against), row.failure(state.many.against)) {
         (Some(error), _) => format!(": {error:.1}° off"),
         (None, Some(why)) => format!(": {why}"),
         (None, None) => String::new(),
