@@ -1,9 +1,8 @@
 //! What of a picture can be asked for on the command line.
 
-use axiscope::app::Drawing;
 use axiscope::evaluate::TruthChoice;
 use axiscope::render::{Camera, Projection};
-use axiscope::view::{Coloring, Overlays, Theme, ViewPreset};
+use axiscope::view::{Coloring, Drawing, Overlays, Style, Theme, ViewPreset};
 use clap::{Args, ValueEnum};
 
 use super::options::positive;
@@ -52,26 +51,27 @@ impl Picture {
     pub(super) fn drawing(&self) -> Drawing {
         Drawing {
             size_px: self.size,
-            coloring: self.color.coloring(),
+            style: Style {
+                coloring: self.color.coloring(),
+                overlays: self.overlays.clone().unwrap_or_default(),
+                theme: match self.background {
+                    BackgroundOption::Dark => Theme::Dark,
+                    BackgroundOption::Light => Theme::Light,
+                },
+                point_size: self.point_size.map(|px| px as f32),
+                eye_dome: !self.flat,
+            },
             plane: match self.plane {
                 PlaneChoice::Best => None,
                 PlaneChoice::Named { g, h } => Some([g, h]),
             },
             view: self.view.preset(),
             camera: self.camera,
-            reference: self.reference.choice(),
-            overlays: self.overlays.clone().unwrap_or_default(),
-            theme: match self.background {
-                BackgroundOption::Dark => Theme::Dark,
-                BackgroundOption::Light => Theme::Light,
-            },
-            point_size_px: self.point_size,
             projection: if self.orthographic {
                 Projection::Orthographic
             } else {
                 Projection::Perspective
             },
-            is_shaded: !self.flat,
             has_angle: true,
         }
     }
