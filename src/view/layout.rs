@@ -2,31 +2,13 @@
 
 use glam::{DVec2, DVec3};
 
-use super::annotation::{Anchor, Annotation, Theme};
+use super::annotation::{Anchor, Annotation};
 use super::legend::Legend;
-use crate::render::{Camera, Color, Insets, Viewport};
+use super::page::Page;
+use crate::render::{Camera, Color, Insets};
 
 /// How wide a text is, in pixels, at a size in pixels: the painter's own measure.
 type Measure<'a> = &'a dyn Fn(&str, f64) -> f64;
-
-/// What is to be written on a picture.
-#[derive(Debug, Clone, Copy)]
-pub struct Page<'a> {
-    /// The picture.
-    pub viewport: Viewport,
-    /// Light on dark, or dark on light.
-    pub theme: Theme,
-    /// What the colors mean.
-    pub legend: Option<&'a Legend>,
-    /// The unit of a scale bar's length, such as cm.
-    pub scale_unit: Option<&'a str>,
-    /// Whether to show which way x, y and z point.
-    pub has_triad: bool,
-    /// Lines of a caption, the most important first.
-    pub caption: &'a [String],
-    /// A text beside a point in the world: the angle at the axis' end.
-    pub label: Option<(DVec3, &'a str)>,
-}
 
 impl Page<'_> {
     fn text_px(&self) -> f64 {
@@ -109,8 +91,8 @@ pub fn annotate(page: &Page<'_>, camera: &Camera, measure: Measure<'_>) -> Vec<A
     if page.scale_unit.is_some() {
         taken.extend(scale_bar(page, camera, bottom, measure, &mut out));
     }
-    if let Some((place, text)) = page.label {
-        label(page, camera, place, text, &taken, bottom, measure, &mut out);
+    if let Some((place, text)) = &page.label {
+        label(page, camera, *place, text, &taken, bottom, measure, &mut out);
     }
     out
 }

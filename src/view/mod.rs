@@ -5,9 +5,13 @@
 mod annotation;
 mod caption;
 mod coloring;
+mod compose;
+#[cfg(feature = "window")]
+mod drawing;
 mod layout;
 mod legend;
 mod overlays;
+mod page;
 mod palette;
 mod pick;
 #[cfg(feature = "reports")]
@@ -16,13 +20,18 @@ mod preset;
 mod scene;
 mod select;
 mod shown;
+mod style;
 
 pub use annotation::{Anchor, Annotation, Theme};
 pub use caption::{caption, grouped, lead_in_words};
 pub use coloring::{Colored, Coloring, ColoringError, Subject, color_bare, color_labels, color_points};
-pub use layout::{Page, annotate, insets};
+pub use compose::{Composition, PlaneView, SceneRequest, compose};
+#[cfg(feature = "window")]
+pub use drawing::{Drawing, DrawingError, DrawnCloud, draw_cloud, draw_page};
+pub use layout::{annotate, insets};
 pub use legend::{Legend, Ramp, Swatch};
 pub use overlays::{Overlay, Overlays};
+pub use page::{Page, PageFacts};
 pub use palette::{NEUTRAL, PEDUNCLE_MARK, VALUE_STOPS, faded, value_color};
 pub use pick::pick_point;
 #[cfg(feature = "reports")]
@@ -37,3 +46,4 @@ pub use scene::{
 };
 pub use select::{Brush, Lasso, Region, Screen};
 pub use shown::ShownPoints;
+pub use style::Style;

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::paint::ViewCallback;
 use crate::app::inspector::why::{why, why_lines};
 use crate::app::true_axes::EditView;
-use crate::app::{Command, State, Tool, Written, dragged};
+use crate::app::{Command, State, Tool, dragged, page};
 use crate::render::{Line, Viewport};
 use crate::ui::peduncle;
 use crate::ui::true_axes::Stage;
@@ -79,8 +79,7 @@ pub(in crate::ui) fn show(
             },
         ));
     }
-    let written = Written::of(state, look);
-    let page = written.page(state, viewport);
+    let page = page(state, look, viewport);
     let font = |size: f64| FontId::proportional(size as f32);
     let measure = |text: &str, size: f64| {
         let galley = ui
