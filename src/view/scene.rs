@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::annotation::Theme;
 use super::coloring::{Colored, Subject};
 use super::overlays::{Overlay, Overlays};
 use super::palette::{ORANGE, PINK, SKY};
+use super::primitive::Theme;
 use super::shown::ShownPoints;
 use crate::geometry::{Extent, Plane};
 use crate::method::{AxisEstimate, AxisSource};

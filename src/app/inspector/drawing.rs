@@ -11,9 +11,9 @@ use crate::render::{Camera, DrawError, Gpu, Image, Projection, Viewport, draw_im
 use crate::view::caption;
 use crate::view::{
     Coloring, ColoringError, Overlay, Overlays, Page, SceneSettings, ShownPoints, Subject, Theme, ViewPreset,
-    annotate, build_scene, color_points, framed_points, insets, line_scale,
+    build_scene, color_points, framed_points, insets, lay_out, line_scale,
 };
-use crate::view::{PictureError, paint_annotations, text_width_px};
+use crate::view::{PictureError, paint_primitives, text_width_px};
 
 /// What is drawn of a cloud, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -158,7 +158,7 @@ pub fn draw(examined: &Examined, drawing: &Drawing, name: &str, gpu: &Gpu) -> Re
     };
     let camera = drawing.camera.unwrap_or_else(preset_camera);
     let mut image = draw_image(gpu, &scene, &camera, width, height)?;
-    paint_annotations(&mut image, &annotate(&page, &camera, &text_width_px))?;
+    paint_primitives(&mut image, &lay_out(&page, &camera, &text_width_px))?;
     Ok(image)
 }
 

@@ -12,8 +12,8 @@ pub(in crate::app) fn draw(
     [width_px, height_px]: [u32; 2],
 ) -> Result<Image, String> {
     use crate::render::{Gpu, Viewport, draw_image};
-    use crate::view::annotate;
-    use crate::view::{paint_annotations, text_width_px};
+    use crate::view::lay_out;
+    use crate::view::{paint_primitives, text_width_px};
 
     let viewport = Viewport::new(width_px.into(), height_px.into());
     let ratio = picture_scale(state, height_px) / state.pixels_per_point;
@@ -27,7 +27,7 @@ pub(in crate::app) fn draw(
         draw_image(&gpu, &scene, &state.camera, width_px, height_px).map_err(|e| e.to_string())?;
     let written = super::written::Written::of(state, look);
     let page = written.page(state, viewport);
-    paint_annotations(&mut image, &annotate(&page, &state.camera, &text_width_px))
+    paint_primitives(&mut image, &lay_out(&page, &state.camera, &text_width_px))
         .map_err(|e| e.to_string())?;
     Ok(image)
 }
