@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use axiscope::annotate::exchange::{ImportedRow, read_table, write_table};
 use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement};
-use axiscope::annotate::{annotation_paths, read_annotations};
+use axiscope::annotate::{annotation_paths, now, read_annotations};
 use axiscope::evaluate::Row;
 use axiscope::fruit::{Fruit, PeduncleChoice, read_cloud};
 use clap::{Args, ValueEnum};
@@ -15,7 +15,6 @@ use serde::Serialize;
 
 use super::annotate::open;
 use super::evaluate::clouds_in;
-use super::now;
 use super::options::{UnitOption, positive};
 
 #[derive(Debug, Args)]
