@@ -132,7 +132,7 @@ impl Store {
         &self.notices
     }
 
-    /// A new state. `now` is the time (RFC 3339, as [`super::rfc3339`] gives it). `Ok` says that it is on
+    /// A new state. `now` is the time (RFC 3339, as [`super::now`] gives it). `Ok` says that it is on
     /// the disk.
     ///
     /// # Errors
