@@ -157,7 +157,7 @@ impl Body<'_> {
                 };
                 match self.bytes.get(at) {
                     None => {
-                        let error = Problem::ends_early(element, row);
+                        let error = element.ends_early(row);
                         return Err(PlyError::at_line(line_of(self.bytes, at), error));
                     }
                     Some(b'\n' | b'\r') => return Err(self.row_length(start, element)),
@@ -219,7 +219,7 @@ impl Body<'_> {
             at = self.skip_space(at, BY_LINE);
             match self.bytes.get(at) {
                 None => {
-                    let problem = Problem::ends_early(element, row);
+                    let problem = element.ends_early(row);
                     return Err(PlyError::at_line(line_of(self.bytes, at), problem));
                 }
                 Some(b'\n' | b'\r') => return Err(self.row_length(start, element)),

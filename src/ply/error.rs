@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use super::header::Element;
-
 /// Where in the file something is wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
@@ -169,16 +167,6 @@ pub enum Problem {
     /// Reading was called off; nothing is wrong.
     #[error("reading was called off")]
     Cancelled,
-}
-
-impl Problem {
-    pub(super) fn ends_early(element: &Element, complete: u64) -> Self {
-        Self::EndsEarly {
-            element: quoted(element.name.as_bytes()),
-            complete,
-            count: element.count,
-        }
-    }
 }
 
 /// A word from the file as it may stand in a message: quoted, escaped, on one line, not too long.

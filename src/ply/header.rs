@@ -41,6 +41,15 @@ impl Element {
             .any(|p| matches!(p.kind, Kind::List { .. }))
     }
 
+    /// The problem of a file that ends after `complete` rows of this element.
+    pub(super) fn ends_early(&self, complete: u64) -> Problem {
+        Problem::EndsEarly {
+            element: quoted(self.name.as_bytes()),
+            complete,
+            count: self.count,
+        }
+    }
+
     /// The least a row takes in binary, in bytes: all it takes where there are no lists.
     pub(super) fn least_stride(&self) -> usize {
         let sizes = self.properties.iter().map(|property| match property.kind {
