@@ -9,8 +9,7 @@ use super::error::{PlyError, Problem, quoted};
 use super::header::{Element, Header, Kind};
 use super::scalar::{FromBytes, Scalar, value};
 
-/// Reads the vertices into the collector, and looks at what stands around them only as far as it
-/// takes to step over it.
+/// Reads the vertices into the collector and steps over everything else.
 pub(super) fn read<const BIG_ENDIAN: bool>(
     bytes: &[u8],
     header: &Header,
@@ -50,7 +49,7 @@ struct Body<'a, const BIG_ENDIAN: bool> {
 }
 
 impl<const BIG_ENDIAN: bool> Body<'_, BIG_ENDIAN> {
-    /// Where an element ends that starts at `at`.
+    /// The end of an element that starts at `at`.
     fn skip(&self, at: usize, element: &Element) -> Result<usize, PlyError> {
         if element.has_lists() {
             self.rows_with_lists(at, element, None)

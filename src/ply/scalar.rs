@@ -55,12 +55,12 @@ impl Scalar {
     }
 }
 
-/// Values that stand in a file as some bytes, least significant first unless turned around.
+/// A scalar of `SIZE` bytes in a binary file.
 pub(super) trait FromBytes<const SIZE: usize> {
     fn from_bytes(bytes: [u8; SIZE], big_endian: bool) -> f64;
 }
 
-/// A type whose values become an `f64` (without loss, 64-bit integers apart: no column needs more).
+// The conversion to `f64` loses nothing, except of 64-bit integers: no column needs more.
 macro_rules! from_bytes {
     ($($kind:ty, $size:literal, $to_f64:expr;)*) => {$(
         impl FromBytes<$size> for $kind {
@@ -87,7 +87,7 @@ from_bytes! {
     f64, 8, |value| value;
 }
 
-/// The value at the start of `bytes`; `None` where they are too few.
+/// The value at the start of `bytes`; `None` if they are too few.
 pub(super) fn value(kind: Scalar, bytes: &[u8], big_endian: bool) -> Option<f64> {
     fn one<T: FromBytes<N>, const N: usize>(bytes: &[u8], big_endian: bool) -> Option<f64> {
         Some(T::from_bytes(*bytes.first_chunk::<N>()?, big_endian))
