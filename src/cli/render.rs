@@ -87,7 +87,7 @@ fn draw(
     let examined = examined(cloud, options, expected_sha256)?;
     let gpu = Gpu::headless()?;
     let name = named.file_name().unwrap_or_default().to_string_lossy();
-    let drawn = examined.drawn(&name, picture.reference.choice());
+    let drawn = examined.drawn(&name, picture.reference);
     let image = draw_cloud(&drawn, &picture.drawing(), &gpu, &()).map_err(|error| match error {
         DrawingError::NoSuchPlane { .. } => usage_error(&error.to_string()),
         _ => error.into(),

@@ -8,13 +8,16 @@ use crate::geometry::{Cloud, Unit};
 
 /// The encoding of the numbers in a PLY file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Encoding {
     /// Text, one line per row.
     Ascii,
     /// Bytes, the least significant first, as on almost all machines.
     #[default]
+    #[cfg_attr(feature = "cli", value(name = "binary", help = "Binary, little-endian"))]
     BinaryLittleEndian,
     /// Bytes, the most significant first.
+    #[cfg_attr(feature = "cli", value(skip))]
     BinaryBigEndian,
 }
 

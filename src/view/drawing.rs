@@ -5,9 +5,9 @@ use glam::DVec3;
 
 use super::coloring::ColoringError;
 use super::compose::{Composition, SceneRequest, compose};
-use super::layout::{annotate, insets};
+use super::layout::{insets, lay_out};
 use super::page::{Page, PageFacts};
-use super::picture::{PictureError, paint_annotations, text_width_px};
+use super::picture::{PictureError, paint_primitives, text_width_px};
 use super::preset::ViewPreset;
 use super::scene::line_scale;
 use super::shown::ShownPoints;
@@ -170,7 +170,7 @@ pub fn draw_page(
     [width_px, height_px]: [u32; 2],
 ) -> Result<Image, DrawingError> {
     let mut image = draw_image(gpu, scene, camera, width_px, height_px)?;
-    paint_annotations(&mut image, &annotate(page, camera, &text_width_px))?;
+    paint_primitives(&mut image, &lay_out(page, camera, &text_width_px))?;
     Ok(image)
 }
 

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::annotation::Theme;
 use super::caption::caption;
 use super::legend::Legend;
 use super::overlays::Overlay;
+use super::primitive::Theme;
 use super::scene::axis_ends;
 use super::shown::ShownPoints;
 use super::style::Style;

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::annotation::Theme;
 use super::coloring::{Colored, Subject};
 use super::overlays::Overlay;
 use super::palette::{ORANGE, PINK, SKY};
+use super::primitive::Theme;
 use super::shown::ShownPoints;
 use super::style::Style;
 use crate::geometry::{Extent, Plane};

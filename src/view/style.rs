@@ -1,8 +1,8 @@
 //! How a cloud is drawn, independent of the cloud.
 
-use super::annotation::Theme;
 use super::coloring::Coloring;
 use super::overlays::{Overlay, Overlays};
+use super::primitive::Theme;
 
 /// The settings that every cloud is drawn with.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,8 +10,8 @@ use axiscope::method::{
 };
 use axiscope::render::{Camera, Insets, Projection, Viewport};
 use axiscope::view::{
-    Annotation, Coloring, ColoringError, NEUTRAL, Overlay, Overlays, Page, SceneSettings, ShownPoints, Style,
-    Subject, Theme, ViewPreset, annotate, build_scene, color_points, framed_points, insets, value_color,
+    Coloring, ColoringError, NEUTRAL, Overlay, Overlays, Page, Primitive, SceneSettings, ShownPoints, Style,
+    Subject, Theme, ViewPreset, build_scene, color_points, framed_points, insets, lay_out, value_color,
 };
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -318,10 +318,10 @@ fn each_overlay_has_a_switch() {
         (bare.points.len(), bare.lines.len(), bare.polygons.len()),
         (1, 0, 0)
     );
-    let annotations = [Overlay::Legend, Overlay::Scale, Overlay::Triad, Overlay::Caption];
+    let written = [Overlay::Legend, Overlay::Scale, Overlay::Triad, Overlay::Caption];
     for overlay in Overlay::ALL {
         let one: Overlays = overlay.name().parse().expect("its own name");
-        assert_eq!(scene(&one) == bare, annotations.contains(&overlay), "{overlay:?}");
+        assert_eq!(scene(&one) == bare, written.contains(&overlay), "{overlay:?}");
     }
     let ghost = scene(&"ghost".parse().expect("a name"));
     let origin = ghost.origin_in_world;
@@ -363,14 +363,14 @@ fn nothing_is_cut_off_and_nothing_covers_anything() {
                 insets(&page, &measure),
             );
             let mut boxes: Vec<(DVec2, DVec2, String)> = Vec::new();
-            for annotation in annotate(&page, &camera, &measure) {
-                let Annotation::Text {
+            for primitive in lay_out(&page, &camera, &measure) {
+                let Primitive::Text {
                     at,
                     anchor,
                     size_px,
                     text,
                     ..
-                } = annotation
+                } = primitive
                 else {
                     continue;
                 };

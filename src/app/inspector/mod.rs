@@ -5,6 +5,7 @@ pub(super) mod details;
 pub(super) mod image;
 pub mod look;
 pub(super) mod navigate;
+pub mod planes;
 pub(super) mod stages;
 mod update;
 pub mod why;

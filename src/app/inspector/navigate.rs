@@ -42,7 +42,7 @@ fn framed(state: &State) -> (Vec<DVec3>, Insets) {
                 point_size_px: 1.0,
                 plane,
                 axis: axis.as_ref(),
-                reference: state.reference().filter(|_| !state.annotating.is_blind),
+                reference: state.reference().filter(|_| !state.true_axes.is_blind),
                 references: &[],
             },
         ),
@@ -57,7 +57,7 @@ fn plane_and_axis(
     Option<crate::geometry::Plane>,
     Option<crate::method::AxisEstimate>,
 ) {
-    if state.annotating.is_blind {
+    if state.true_axes.is_blind {
         return (None, None);
     }
     let plane = state.analysis().zip(state.chosen_plane_index()).map(|(a, i)| {
