@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{CloudFile, PickedPoints, ReadError, read_cloud, read_cloud_watched, unit_guess};
+use super::{CloudFile, PickedPoints, ReadError, Request, read_cloud, read_cloud_watched, unit_guess};
 use crate::annotate::Annotation;
 use crate::annotate::read_annotations;
 use crate::geometry::{Cloud, Unit};
@@ -13,9 +13,10 @@ use crate::peduncle::{HueRange, Peduncle, PeduncleError, PeduncleSource};
 use crate::simulate::Truth;
 
 /// The source of the peduncle.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub enum PeduncleChoice {
     /// Labels in the file, else a companion file, else none.
+    #[default]
     Auto,
     /// No source: the fruit has no peduncle.
     None,
@@ -77,32 +78,25 @@ impl FruitError {
 }
 
 impl Fruit {
-    /// Reads a cloud, determines its unit (`None`: as stated in the file, or else guessed) and finds its peduncle.
+    /// Reads a cloud with the request's unit (`None`: as stated in the file, or else guessed), and finds its peduncle in
+    /// the request's source.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read, or if the peduncle is not found in its source.
-    pub fn read(path: &Path, unit: Option<Unit>, choice: &PeduncleChoice) -> Result<Self, FruitError> {
-        Self::read_watched(path, unit, choice, &())
+    pub fn read(path: &Path, request: &Request) -> Result<Self, FruitError> {
+        Self::read_watched(path, request, &())
     }
 
     /// [`Fruit::read`] with its progress reported to `watch`.
     ///
     /// # Errors
     /// Returns the errors of [`Fruit::read`], and an error if the watch calls the work off.
-    pub fn read_watched(
-        path: &Path,
-        unit: Option<Unit>,
-        choice: &PeduncleChoice,
-        watch: &dyn Watch,
-    ) -> Result<Self, FruitError> {
-        Self::from_file(Arc::new(read_cloud_watched(path, watch)?), unit, choice)
+    pub fn read_watched(path: &Path, request: &Request, watch: &dyn Watch) -> Result<Self, FruitError> {
+        let file = read_cloud_watched(path, watch)?;
+        Self::from_file(Arc::new(file), request.unit, &request.peduncle)
     }
 
-    /// [`Fruit::read`] for a cloud that was read before.
-    ///
-    /// # Errors
-    /// Returns an error if the peduncle's file cannot be read, or if the peduncle is not found in its source.
-    pub fn from_file(
+    fn from_file(
         file: Arc<CloudFile>,
         unit: Option<Unit>,
         choice: &PeduncleChoice,
@@ -143,14 +137,10 @@ impl Fruit {
         }
     }
 
-    /// [`Fruit::from_file`] that gives a fruit without a peduncle if it is not found in its source;
-    /// [`Fruit::peduncle_problem`] tells the reason. So the window shows the cloud while a range of hues or a path is
+    /// [`Fruit::read`] for a cloud that was read before, which gives a fruit without a peduncle if it is not found in its
+    /// source; [`Fruit::peduncle_problem`] tells the reason. So the window shows the cloud while a range of hues or a path is
     /// still being entered.
-    pub fn from_file_lenient(
-        file: &Arc<CloudFile>,
-        unit: Option<Unit>,
-        choice: &PeduncleChoice,
-    ) -> Self {
+    pub fn from_file_lenient(file: &Arc<CloudFile>, unit: Option<Unit>, choice: &PeduncleChoice) -> Self {
         Self::from_file(file.clone(), unit, choice).unwrap_or_else(|error| {
             let problem = format!("{error}.");
             let mut fruit = Self::with_peduncle(file.clone(), unit, None);

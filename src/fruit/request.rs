@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Fruit, PeduncleChoice};
 use crate::geometry::Unit;
-use crate::method::{NormalSource, Params};
+use crate::method::{NormalSource, Params, Preset};
 
 /// The settings of an analysis, before anything is known of the cloud. [`Request::params`] completes them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -19,6 +19,19 @@ pub struct Request {
     pub normals: Option<NormalSource>,
     /// All other parameters. Their unit and source of normals are replaced by [`Request::params`].
     pub params: Params,
+}
+
+impl Default for Request {
+    /// The paper as intended: unit, peduncle and normals as far as the files tell them.
+    fn default() -> Self {
+        Self {
+            unit: None,
+            peduncle: PeduncleChoice::Auto,
+            without_peduncle: false,
+            normals: None,
+            params: Params::new(Preset::AsIntended, Unit::Centimeter),
+        }
+    }
 }
 
 impl Request {

@@ -11,6 +11,7 @@ use crate::geometry::{Cloud, Unit};
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Encoding {
     /// Text, one line per row.
+    #[cfg_attr(feature = "cli", value(help = "Text"))]
     Ascii,
     /// Bytes, the least significant first, as on almost all machines.
     #[default]
