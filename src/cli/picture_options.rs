@@ -1,4 +1,4 @@
-//! What of a picture can be asked for on the command line.
+//! The command-line options of a picture.
 
 use axiscope::evaluate::TruthChoice;
 use axiscope::render::{Camera, Projection};
@@ -48,7 +48,7 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// What these options ask for.
+    /// The settings of the picture.
     pub(super) fn drawing(&self) -> Drawing {
         Drawing {
             size_px: self.size,
