@@ -4,22 +4,37 @@
 //! A cloud that cannot be read or analyzed is a row with its reason. Rows hold no times, so that a
 //! resumed run, a run in shards and an unbroken run give the same bytes.
 
+mod checksummed_lines;
 mod examine;
+mod file_hashes;
 mod outcome;
+#[cfg(feature = "window")]
+mod pictures;
 mod report;
 mod results;
 mod row;
+mod row_store;
+mod runner;
 mod start;
 mod summary;
 mod sweep;
 mod table;
+mod tags;
+mod thumbnails;
 
 pub use examine::{Examined, TruthChoice, compared, examine, peduncle_disagreement_deg, reference_of};
+pub use file_hashes::KnownHash;
 pub use outcome::{KnownAxis, Outcome};
+#[cfg(feature = "window")]
+pub use pictures::pictures_of_worst;
 pub use report::{AnalysisReport, SCHEMA, Timings};
 pub use results::{ResultsError, WorstPicture, result_files, worst_first};
 pub use row::Row;
+pub use row_store::{RowStore, StoreKind, StoreProblem, StoredRow};
+pub use runner::{EvaluateError, EvaluatedCloud, Reuse, Runner, annotation_files, evaluate_file};
 pub use start::{StartError, start_axis};
 pub use summary::Summary;
 pub use sweep::{Sweep, SweepError, SweepSettings, sweep_cloud};
 pub use table::{TableError, csv, parquet};
+pub use tags::{TAGS_FILE, Tagged, add_tags, read_tags, write_tags};
+pub use thumbnails::{THUMBNAIL_PX, ThumbnailFile, ThumbnailRenderer, ThumbnailSettings};

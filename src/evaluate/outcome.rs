@@ -154,6 +154,12 @@ impl Outcome {
         self
     }
 
+    /// Adds a sentence to the warnings of the row.
+    pub(super) fn add_warning(&mut self, sentence: &str) {
+        self.row.warnings.push(' ');
+        self.row.warnings.push_str(sentence);
+    }
+
     /// The reference that `choice` asks for, if it is known.
     pub fn reference(&self, choice: TruthChoice) -> Option<&KnownAxis> {
         match choice {

@@ -1,6 +1,7 @@
 //! The error over a range of settings: u and τ, with everything else as it is.
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::{Examined, TruthChoice, reference_of};
 use crate::geometry::angle_between_lines_rad;
@@ -8,7 +9,7 @@ use crate::method::{CandidateGrid, ParamError, Ranking, plane_terms, symmetry_ax
 use crate::parallel::{Cancelled, Watch};
 
 /// The settings to try, each with each.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SweepSettings {
     /// Steps of the candidate grid.
     pub u: Vec<usize>,

@@ -1,15 +1,12 @@
 //! The open clouds as a set: analyzed in the background, as a table that is sorted and filtered, tagged,
 //! drawn small, and swept over settings.
 
-mod cache;
-#[cfg(feature = "window")]
-mod pictures;
-mod run;
+mod background;
 mod saving;
 mod sweeping;
 mod table;
+mod tag_writer;
 mod tagging;
-mod tags;
 mod thumbnails;
 mod update;
 
@@ -17,28 +14,25 @@ use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use crate::app::workers::{Lane, Repaint};
-use crate::evaluate::TruthChoice;
+use crate::evaluate::{Tagged, TruthChoice};
 use crate::fruit::Request;
-use crate::parallel::Crew;
+use crate::parallel::BackgroundPool;
 
-#[cfg(feature = "window")]
-pub use pictures::pictures_of_worst;
-pub use saving::{add_tags, evaluate_command_line};
+pub use saving::evaluate_command_line;
 pub use sweeping::{MOST_TAUS, SweepState, SweepWish};
 pub use table::{Column, Filter, Sort, TableRow, ordered};
-pub use tags::{TAGS_FILE, Tagged, read_tags};
-pub use thumbnails::{KEPT_PICTURES, THUMBNAIL_PX, Thumbnail, Thumbnails};
+pub use thumbnails::{KEPT_PICTURES, Thumbnail, Thumbnails};
 
-use run::{Background, Found};
+use background::{BatchContext, BatchResult};
 use sweeping::Sweeper;
-use tags::Scribe;
-use thumbnails::Studio;
+use tag_writer::TagWriter;
+use thumbnails::ThumbnailQueue;
 
 /// Folders of up to so many clouds are evaluated as they are opened.
 pub const EVALUATED_AT_ONCE: usize = 200;
@@ -212,10 +206,9 @@ struct TagEdit {
 
 /// What works behind [`FolderState`].
 pub(super) struct Folder {
-    background: Background,
-    crew: Arc<Crew>,
+    context: BatchContext,
     lane: Lane<()>,
-    found: (Sender<Found>, Receiver<Found>),
+    found: (Sender<BatchResult>, Receiver<BatchResult>),
     turn: u64,
     /// What the rows in force are of.
     request: Option<Request>,
@@ -229,8 +222,8 @@ pub(super) struct Folder {
     began: std::time::Instant,
     worked_out: usize,
     places: HashMap<PathBuf, usize>,
-    scribe: Scribe,
-    studio: Studio,
+    tag_writer: TagWriter,
+    thumbnails: ThumbnailQueue,
     sweeper: Sweeper,
     results: Lane<Result<String, String>>,
     tags_read: HashSet<PathBuf>,
@@ -243,11 +236,11 @@ pub(super) struct Folder {
 impl Folder {
     pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
         Ok(Self {
-            background: Background {
-                cache: Arc::new(Mutex::default()),
-                is_in_the_way: Arc::new(AtomicBool::new(false)),
+            context: BatchContext {
+                store: Arc::default(),
+                pool: Arc::new(BackgroundPool::new()),
+                is_foreground_busy: Arc::new(AtomicBool::new(false)),
             },
-            crew: Arc::new(Crew::new()),
             lane: Lane::new("folder", repaint.clone())?,
             found: channel(),
             turn: 0,
@@ -259,8 +252,8 @@ impl Folder {
             began: std::time::Instant::now(),
             worked_out: 0,
             places: HashMap::new(),
-            scribe: Scribe::new(repaint.clone())?,
-            studio: Studio::new(repaint)?,
+            tag_writer: TagWriter::new(repaint.clone())?,
+            thumbnails: ThumbnailQueue::new(repaint)?,
             sweeper: Sweeper::new(repaint)?,
             results: Lane::new("results", repaint.clone())?,
             tags_read: HashSet::new(),
@@ -271,7 +264,7 @@ impl Folder {
     }
 
     pub(super) fn is_busy(&self) -> bool {
-        let is_drawing = self.studio.is_busy() || self.sweeper.is_busy() || self.results.is_busy();
-        self.lane.is_busy() || self.rested.is_some() || self.scribe.is_busy() || is_drawing
+        let is_drawing = self.thumbnails.is_busy() || self.sweeper.is_busy() || self.results.is_busy();
+        self.lane.is_busy() || self.rested.is_some() || self.tag_writer.is_busy() || is_drawing
     }
 }

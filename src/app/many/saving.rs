@@ -1,6 +1,5 @@
 //! The results of the open clouds as files, the same that `axiscope evaluate` writes, and the command that does.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::app::state::State;
@@ -168,21 +167,11 @@ fn new_folder(into: &Path) -> std::io::Result<PathBuf> {
 
 #[cfg(feature = "window")]
 fn pictures(task: &Task) -> (Vec<WorstPicture>, Option<String>) {
-    super::pictures_of_worst(&task.clouds, &task.rows, &task.request, PICTURES)
+    crate::evaluate::pictures_of_worst(&task.clouds, &task.rows, &task.request, PICTURES)
 }
 
 /// Without a renderer there are no pictures.
 #[cfg(not(feature = "window"))]
 fn pictures(_: &Task) -> (Vec<WorstPicture>, Option<String>) {
     (Vec::new(), None)
-}
-
-/// Writes what is tagged and noted in the folder into the rows of its clouds.
-pub fn add_tags(rows: &mut [Row], tags: &BTreeMap<String, super::Tagged>) {
-    for row in rows {
-        if let Some(tagged) = tags.get(&row.file) {
-            row.tags = tagged.tags.join(", ");
-            row.note.clone_from(&tagged.note);
-        }
-    }
 }

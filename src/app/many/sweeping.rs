@@ -9,13 +9,13 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use super::FolderProgress;
-use super::run::{Background, Polite};
+use super::background::{BatchContext, YieldingWatch};
 use crate::app::App;
 use crate::app::workers::{JobWatch, Lane, Repaint};
-use crate::evaluate::{Outcome, Sweep, SweepSettings, TruthChoice, sweep_cloud};
+use crate::evaluate::{Sweep, SweepSettings, TruthChoice, evaluate_file};
 use crate::fruit::Request;
 use crate::method::CandidateGrid;
-use crate::parallel::{Crew, Watch};
+use crate::parallel::Watch;
 
 /// The most settings of τ that are tried.
 pub const MOST_TAUS: usize = 200;
@@ -176,11 +176,11 @@ impl App {
             request: self.state.settings.request.clone(),
             against: folder.against,
         };
-        let (background, crew) = (self.folder.background.clone(), self.folder.crew.clone());
+        let context = self.folder.context.clone();
         let swept = sweeper.swept.0.clone();
         sweeper
             .lane
-            .submit(move |watch| run(&task, &background, &crew, watch, &swept));
+            .submit(move |watch| sweep_batch(&task, &context, watch, &swept));
     }
 
     /// Calls the sweep off; the map stays as far as it came.
@@ -236,31 +236,29 @@ struct Task {
     against: TruthChoice,
 }
 
-/// Several clouds at a time; what they say is added up in the order in which it comes, which changes a mean in
-/// its last digit at most.
-fn run(task: &Task, background: &Background, crew: &Crew, watch: &JobWatch, swept: &Sender<Swept>) {
+/// Sweeps over several clouds at a time. Their errors are added up in the order in which they come, which
+/// changes a mean in its last digit at most.
+fn sweep_batch(task: &Task, context: &BatchContext, watch: &JobWatch, swept: &Sender<Swept>) {
     let next = AtomicUsize::new(0);
-    let polite = Polite { watch, background };
-    crew.each(|| {
+    let yielding = YieldingWatch { watch, context };
+    let sweep = Some((&task.settings, task.against));
+    context.pool.broadcast(|| {
         loop {
             let place = next.fetch_add(1, Ordering::Relaxed);
             let Some(path) = task.clouds.get(place) else {
                 return;
             };
-            if polite.is_cancelled() {
+            if yielding.is_cancelled() {
                 return;
             }
-            let worked = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-                let (_, examined) = Outcome::of_file("", path, &task.request, &polite).ok()?;
-                sweep_cloud(&examined?, task.against, &task.settings, &polite).ok()
-            }));
+            let row = evaluate_file("", path, &task.request, sweep, &yielding);
             if watch.is_cancelled() {
                 return;
             }
-            // Nobody listens any more where the window has closed.
+            // The window may have closed.
             let _ = swept.send(Swept {
                 turn: task.turn,
-                errors_deg: worked.ok().flatten(),
+                errors_deg: row.ok().and_then(|row| row.sweep_deg),
             });
         }
     });

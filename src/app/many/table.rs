@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::tags::Tagged;
-use crate::evaluate::{Outcome, TruthChoice};
+use crate::evaluate::{Outcome, Tagged, TruthChoice};
 use crate::view::grouped;
 
 /// What the table can be sorted by.

@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::run::name_of;
-use super::tags::Answer;
-use super::{Filter, TagEdit, Tagged};
+use super::background::name_of;
+use super::tag_writer::TagResult;
+use super::{Filter, TagEdit};
 use crate::app::App;
+use crate::evaluate::Tagged;
 
 impl App {
     pub(super) fn tag(&mut self, place: usize, tagged: Tagged) {
@@ -46,7 +47,7 @@ impl App {
             row.tagged = tagged.clone();
             row.write_cells(place);
         }
-        self.folder.scribe.write(path, tagged);
+        self.folder.tag_writer.write(path, tagged);
         self.gather_tags();
         self.reorder();
     }
@@ -103,9 +104,9 @@ impl App {
 
     /// What the thread that reads and writes tags has to tell.
     pub(super) fn take_tags(&mut self) {
-        while let Some(answer) = self.folder.scribe.take() {
-            match answer {
-                Answer::Read(folder, Ok(mut tags)) => {
+        while let Some(result) = self.folder.tag_writer.take() {
+            match result {
+                TagResult::Read(folder, Ok(mut tags)) => {
                     let rows = Arc::make_mut(&mut self.state.folder.rows);
                     for (place, row) in rows.iter_mut().enumerate() {
                         let is_there = row.path.as_deref().and_then(Path::parent) == Some(&*folder);
@@ -127,8 +128,8 @@ impl App {
                     self.gather_tags();
                     self.reorder();
                 }
-                Answer::Read(_, Err(problem)) | Answer::Written(Err(problem)) => self.say(true, problem),
-                Answer::Written(Ok(())) => {}
+                TagResult::Read(_, Err(problem)) | TagResult::Written(Err(problem)) => self.say(true, problem),
+                TagResult::Written(Ok(())) => {}
             }
         }
     }

@@ -10,7 +10,8 @@ use egui::{
 };
 
 use super::{FolderAnswer, bar};
-use crate::app::many::{FolderCommand, KEPT_PICTURES, THUMBNAIL_PX};
+use crate::app::many::{FolderCommand, KEPT_PICTURES};
+use crate::evaluate::THUMBNAIL_PX;
 use crate::app::{Command, State};
 use crate::render::Image;
 use crate::ui::widgets::controls::{small, warning_color};

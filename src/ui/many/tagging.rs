@@ -2,7 +2,8 @@
 
 use egui::{Id, Label, RichText, TextEdit, Ui};
 
-use crate::app::many::{FolderCommand, TableRow, Tagged};
+use crate::app::many::{FolderCommand, TableRow};
+use crate::evaluate::Tagged;
 use crate::app::{Command, State};
 use crate::ui::widgets::controls::{small, warning_color};
 
