@@ -11,6 +11,7 @@ mod outcome;
 #[cfg(feature = "window")]
 mod pictures;
 mod report;
+#[cfg(feature = "reports")]
 mod results;
 mod row;
 mod row_store;
@@ -18,8 +19,8 @@ mod runner;
 mod start;
 mod summary;
 mod sweep;
-mod table;
 mod tags;
+#[cfg(feature = "reports")]
 mod thumbnails;
 
 pub use examine::{Examined, TruthChoice, compared, examine, peduncle_disagreement_deg, reference_of};
@@ -28,13 +29,14 @@ pub use outcome::{KnownAxis, Outcome};
 #[cfg(feature = "window")]
 pub use pictures::pictures_of_worst;
 pub use report::{AnalysisReport, SCHEMA, Timings};
-pub use results::{ResultsError, WorstPicture, result_files, worst_first};
+#[cfg(feature = "reports")]
+pub use results::{ResultsError, TableError, WorstPicture, csv, parquet, result_files, worst_first};
 pub use row::Row;
 pub use row_store::{RowStore, StoreKind, StoreProblem, StoredRow};
 pub use runner::{EvaluateError, EvaluatedCloud, Reuse, Runner, annotation_files, evaluate_file};
 pub use start::{StartError, start_axis};
 pub use summary::Summary;
 pub use sweep::{Sweep, SweepError, SweepSettings, sweep_cloud};
-pub use table::{TableError, csv, parquet};
 pub use tags::{TAGS_FILE, Tagged, add_tags, read_tags, write_tags};
+#[cfg(feature = "reports")]
 pub use thumbnails::{THUMBNAIL_PX, ThumbnailFile, ThumbnailRenderer, ThumbnailSettings};

@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use super::background::{BatchContext, YieldingWatch};
 use crate::app::App;
-use crate::app::workers::{JobWatch, Lane, Repaint};
+use crate::app::workers::{JobWatch, Lane, Pool};
 use crate::evaluate::{ThumbnailFile, ThumbnailRenderer, ThumbnailSettings};
 use crate::render::Image;
 
@@ -46,9 +46,9 @@ pub(super) struct ThumbnailQueue {
 }
 
 impl ThumbnailQueue {
-    pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
-            lane: Lane::new("thumbnails", repaint.clone())?,
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
+            lane: Lane::new(pool),
             drawn: channel(),
             renderer: Arc::default(),
             wanted: Vec::new(),
@@ -56,7 +56,7 @@ impl ThumbnailQueue {
             turn: 0,
             settings: None,
             order: Vec::new(),
-        })
+        }
     }
 
     pub(super) fn is_busy(&self) -> bool {
@@ -67,23 +67,23 @@ impl ThumbnailQueue {
 impl App {
     /// Takes note of the clouds that are visible.
     pub(super) fn want_pictures(&mut self, places: &[usize]) {
-        let rows = &self.state.folder.rows;
+        let rows = &self.state.many.rows;
         let path = |&place: &usize| rows.get(place)?.path.clone();
         // More than are kept would evict one another again and again.
         let wanted = places.iter().filter_map(path).take(KEPT_PICTURES);
-        self.folder.thumbnails.wanted = wanted.collect();
+        self.many.thumbnails.wanted = wanted.collect();
     }
 
     pub(super) fn update_pictures(&mut self) {
         self.mark_old_pictures();
-        let is_over = self.folder.thumbnails.lane.take().is_some();
-        while let Ok(drawn) = self.folder.thumbnails.drawn.1.try_recv() {
-            if drawn.turn == self.folder.thumbnails.turn {
+        let is_over = self.many.thumbnails.lane.take().is_some();
+        while let Ok(drawn) = self.many.thumbnails.drawn.1.try_recv() {
+            if drawn.turn == self.many.thumbnails.turn {
                 self.keep_picture(drawn);
             }
         }
         if is_over {
-            self.folder.thumbnails.requested.clear();
+            self.many.thumbnails.requested.clear();
         }
         self.ask_for_pictures();
     }
@@ -91,24 +91,24 @@ impl App {
     fn mark_old_pictures(&mut self) {
         let settings = ThumbnailSettings {
             request: self.state.settings.request.clone(),
-            against: self.state.folder.against,
+            against: self.state.many.against,
             theme: self.state.style.theme,
         };
-        if self.folder.thumbnails.settings.as_ref() == Some(&settings) {
+        if self.many.thumbnails.settings.as_ref() == Some(&settings) {
             return;
         }
-        self.folder.thumbnails.settings = Some(settings);
-        self.folder.thumbnails.lane.cancel();
-        self.folder.thumbnails.requested.clear();
-        self.folder.thumbnails.turn += 1;
-        for picture in Arc::make_mut(&mut self.state.folder.pictures).values_mut() {
+        self.many.thumbnails.settings = Some(settings);
+        self.many.thumbnails.lane.cancel();
+        self.many.thumbnails.requested.clear();
+        self.many.thumbnails.turn += 1;
+        for picture in Arc::make_mut(&mut self.state.many.pictures).values_mut() {
             picture.is_stale = true;
         }
     }
 
     fn keep_picture(&mut self, drawn: Drawn) {
-        let thumbnails = &mut self.folder.thumbnails;
-        let pictures = Arc::make_mut(&mut self.state.folder.pictures);
+        let thumbnails = &mut self.many.thumbnails;
+        let pictures = Arc::make_mut(&mut self.state.many.pictures);
         thumbnails.order.retain(|path| *path != drawn.path);
         thumbnails.order.push(drawn.path.clone());
         let picture = Thumbnail {
@@ -124,9 +124,9 @@ impl App {
     }
 
     fn ask_for_pictures(&mut self) {
-        let pictures = &self.state.folder.pictures;
+        let pictures = &self.state.many.pictures;
         let is_missing = |path: &&PathBuf| pictures.get(*path).is_none_or(|picture| picture.is_stale);
-        let thumbnails = &mut self.folder.thumbnails;
+        let thumbnails = &mut self.many.thumbnails;
         let missing: Vec<PathBuf> = thumbnails.wanted.iter().filter(is_missing).cloned().collect();
         let is_asked = missing.iter().all(|path| thumbnails.requested.contains(path));
         let Some(settings) = thumbnails.settings.clone().filter(|_| !is_asked) else {
@@ -139,7 +139,7 @@ impl App {
             thumbnails.drawn.0.clone(),
             thumbnails.renderer.clone(),
         );
-        let context = self.folder.context.clone();
+        let context = self.many.context.clone();
         thumbnails.lane.submit(move |watch| {
             for path in missing {
                 let Some(image) = picture(&path, &settings, &renderer, &context, watch) else {

@@ -13,7 +13,7 @@ use axiscope::evaluate::{
     annotation_files, read_tags, result_files,
 };
 use axiscope::parallel::{Watch, map_pieces};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::options::AnalysisOptions;
 use super::progress::CountingBar;
@@ -25,7 +25,7 @@ pub(super) struct Evaluate {
     folder: PathBuf,
     /// Which reference the error is measured against
     #[arg(long, value_enum, default_value = "auto")]
-    truth: TruthOption,
+    truth: TruthChoice,
     /// The folder for results.csv, results.parquet, summary.json, report.html and the figures
     #[arg(short, long, value_name = "DIR", default_value = "evaluation")]
     out: PathBuf,
@@ -47,20 +47,6 @@ pub(super) struct Evaluate {
     pictures: usize,
     #[command(flatten)]
     analysis: AnalysisOptions,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum TruthOption {
-    /// The simulator's truth where there is one, else the axis set by hand, else the peduncle
-    Auto,
-    /// The axis from the fruit center through the peduncle (§ 3.2)
-    Peduncle,
-    /// The peduncle's own direction, in which its points are spread most
-    PeduncleDirection,
-    /// The axis set by hand: the adjudicated one, else the mean of the annotators'
-    Manual,
-    /// The axis in NAME.truth.json
-    Truth,
 }
 
 /// One of several equal parts of a list.
@@ -96,13 +82,6 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     }
     std::fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
     let request = args.analysis.request();
-    let choice = match args.truth {
-        TruthOption::Auto => TruthChoice::Auto,
-        TruthOption::Peduncle => TruthChoice::Peduncle,
-        TruthOption::PeduncleDirection => TruthChoice::PeduncleDirection,
-        TruthOption::Manual => TruthChoice::Manual,
-        TruthOption::Truth => TruthChoice::Truth,
-    };
     let rows_folder = args.out.join("rows");
     std::fs::create_dir_all(&rows_folder).with_context(|| rows_folder.display().to_string())?;
     let store = RowStore::in_folder(rows_folder, StoreKind::Record);
@@ -111,7 +90,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     } else {
         Reuse::Never
     };
-    let runner = Runner::new(&store, &request, sweep.as_ref().map(|s| (s, choice)), reuse);
+    let runner = Runner::new(&store, &request, sweep.as_ref().map(|s| (s, args.truth)), reuse);
 
     let bar = CountingBar::new("Evaluating", clouds.len());
     let stored = evaluate_all(&args.folder, &clouds, &runner, &bar)?;
@@ -120,7 +99,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
         eprintln!("Warning: a later --resume will not find every row: {problem}");
     }
 
-    let mut rows: Vec<Row> = stored.iter().map(|s| s.outcome.against(choice)).collect();
+    let mut rows: Vec<Row> = stored.iter().map(|s| s.outcome.against(args.truth)).collect();
     match read_tags(&args.folder) {
         Ok(tags) => add_tags(&mut rows, &tags),
         Err(problem) => eprintln!("Warning: {problem}"),

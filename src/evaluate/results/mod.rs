@@ -3,14 +3,17 @@
 
 mod figures;
 mod html;
+mod tables;
 
 use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Row, Summary, Sweep, TableError, csv, parquet};
+use super::{Row, Summary, Sweep};
 use crate::charts::FigureError;
 use crate::fruit::Request;
+
+pub use tables::{TableError, csv, parquet};
 
 /// A picture of one of the worst clouds, for the page.
 #[derive(Debug, Clone, PartialEq)]
