@@ -1,8 +1,10 @@
-//! Clouds examined: one in full, with its report, or many, one row a cloud, and what the rows say
-//! together.
+//! Evaluation of one cloud, with its report, or of many: a row for each, and tables, figures and a page about all
+//! of them.
 //!
-//! A cloud that cannot be read or analyzed is a row with its reason. Rows hold no times, so that a
-//! resumed run, a run in shards and an unbroken run give the same bytes.
+//! [`examine`] analyzes a cloud and compares it with its reference axes; an [`Outcome`] holds the comparison, and
+//! a [`Row`] the part of it that belongs to one reference. A [`Runner`] does that for cloud after cloud, and keeps
+//! the rows in a [`RowStore`]. A cloud that cannot be read or analyzed has a row with the reason. Rows hold no
+//! times: a resumed run, a run in shards and an unbroken run give the same bytes.
 
 mod checksummed_lines;
 mod examine;

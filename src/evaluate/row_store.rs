@@ -148,10 +148,7 @@ impl RowStore {
         if inner.rows_of(params_key).get(&cloud_key) == Some(&row) {
             return;
         }
-        let line = RowLine {
-            key: cloud_key,
-            row,
-        };
+        let line = RowLine { key: cloud_key, row };
         inner.append(&rows_file(params_key), &line);
         inner.rows_of(params_key).insert(line.key, line.row);
     }

@@ -77,7 +77,7 @@ impl ThumbnailFile {
 }
 
 /// Draws thumbnails with one device, which it opens for the first of them.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct ThumbnailRenderer {
     device: Mutex<Device>,
 }

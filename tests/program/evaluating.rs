@@ -95,20 +95,36 @@ fn a_resumed_run_and_shards_give_the_unbroken_run_s_bytes() {
     evaluate(&set, &path("broken"), "--voxel-cm 0.3");
     let (file, lines) = stored_rows(&path("broken"));
     assert_eq!(lines.len(), 3);
-    std::fs::write(&file, format!("{}\n{}", lines[0], &lines[1][..lines[1].len() / 2])).unwrap();
+    std::fs::write(
+        &file,
+        format!("{}\n{}", lines[0], &lines[1][..lines[1].len() / 2]),
+    )
+    .unwrap();
     evaluate(&set, &path("broken"), "--voxel-cm 0.3 --resume");
     for file in ["results.csv", "results.parquet", "summary.json", "report.html"] {
         assert_eq!(read("whole", file), read("broken", file), "{file}");
     }
-    assert_eq!(stored_rows(&path("broken")).1.len(), 4, "two were added to one and a half");
+    assert_eq!(
+        stored_rows(&path("broken")).1.len(),
+        4,
+        "two were added to one and a half"
+    );
 
     // What is kept is used: a row changed by hand shows up, but not for other settings, nor without being asked.
     let (file, lines) = stored_rows(&path("broken"));
     let (_, row) = lines[0].split_once(' ').unwrap();
     let changed = row.replace("\"warnings\":\"", "\"warnings\":\"kept ");
     let sum = &sha256_hex(changed.as_bytes())[..16];
-    std::fs::write(&file, lines.join("\n").replace(&lines[0], &format!("{sum} {changed}"))).unwrap();
-    let is_kept = || String::from_utf8(read("broken", "results.csv")).unwrap().contains("kept ");
+    std::fs::write(
+        &file,
+        lines.join("\n").replace(&lines[0], &format!("{sum} {changed}")),
+    )
+    .unwrap();
+    let is_kept = || {
+        String::from_utf8(read("broken", "results.csv"))
+            .unwrap()
+            .contains("kept ")
+    };
     evaluate(&set, &path("broken"), "--voxel-cm 0.3 --resume");
     assert!(is_kept());
     evaluate(&set, &path("broken"), "--voxel-cm 0.4 --resume");

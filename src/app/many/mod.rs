@@ -4,7 +4,7 @@
 mod background;
 mod saving;
 mod sweeping;
-mod table;
+mod cloud_rows;
 mod tag_store;
 mod tagging;
 mod thumbnails;
@@ -12,9 +12,9 @@ mod update;
 
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::Arc;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -25,8 +25,8 @@ use crate::fruit::Request;
 use crate::parallel::BackgroundPool;
 
 pub use saving::evaluate_command_line;
-pub use sweeping::{MOST_TAUS, SweepState, SweepWish};
-pub use table::{Column, Filter, Sort, TableRow, ordered};
+pub use sweeping::{MOST_TAUS, SweepState, SweepRanges};
+pub use cloud_rows::{Column, Filter, Sort, TableRow, ordered};
 pub use thumbnails::{KEPT_PICTURES, Thumbnail, Thumbnails};
 
 use background::{BatchContext, BatchResult};
@@ -55,7 +55,7 @@ pub struct KeptMany {
     sort: Sort,
     filter: Filter,
     against: TruthChoice,
-    sweep: SweepWish,
+    sweep: SweepRanges,
     folders: Vec<PathBuf>,
 }
 
@@ -72,7 +72,7 @@ impl Default for KeptMany {
             sort: Sort::default(),
             filter: Filter::default(),
             against: TruthChoice::Auto,
-            sweep: SweepWish::default(),
+            sweep: SweepRanges::default(),
             folders: Vec::new(),
         }
     }
@@ -134,7 +134,7 @@ impl ManyState {
             sort: self.sort,
             filter: self.filter.clone(),
             against: self.against,
-            sweep: self.sweep.wish.clone(),
+            sweep: self.sweep.ranges.clone(),
             folders: self.folders.clone(),
         }
     }
@@ -171,7 +171,7 @@ pub enum ManyCommand {
     /// Draw small pictures of these clouds, which are in sight, by their places in the list.
     Picture(Vec<usize>),
     /// Which settings are to be swept.
-    Wish(Box<SweepWish>),
+    SweepRanges(Box<SweepRanges>),
     /// Sweep over them.
     Sweep,
     /// Call the sweep off; the map stays as far as it came.

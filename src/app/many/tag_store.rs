@@ -51,7 +51,11 @@ impl TagStore {
         drop(of_clouds);
         self.queue.submit(move |()| {
             // While somebody types, only the newest text has to go to the disk.
-            let newest = newest.lock().unwrap_or_else(PoisonError::into_inner).get(&path).copied();
+            let newest = newest
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .get(&path)
+                .copied();
             if newest != Some(edit) {
                 return TagResult::Written(Ok(()));
             }

@@ -1,4 +1,4 @@
-//! Tags and notes as somebody changes them: shown at once, written behind it, and undone in turn with settings.
+//! Edits of tags and notes: shown at once, written to disk in the background, and undone in turn with settings.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use super::background::name_of;
 use super::tag_store::TagResult;
-use super::{Filter, TagEdit};
-use crate::app::App;
+use super::{Filter, Many, TableRow};
+use crate::app::{App, Step};
 use crate::evaluate::Tagged;
 
 impl App {
@@ -58,7 +58,7 @@ impl App {
         }
     }
 
-    /// What the thread that reads and writes tags has to tell.
+    /// Takes the results of reading and writing tags.
     pub(super) fn take_tags(&mut self) {
         while let Some(result) = self.many.tag_store.take() {
             match result {
@@ -81,7 +81,9 @@ impl App {
                     self.gather_tags();
                     self.reorder();
                 }
-                TagResult::Read(_, Err(problem)) | TagResult::Written(Err(problem)) => self.say(true, problem),
+                TagResult::Read(_, Err(problem)) | TagResult::Written(Err(problem)) => {
+                    self.say(true, problem)
+                }
                 TagResult::Written(Ok(())) => {}
             }
         }

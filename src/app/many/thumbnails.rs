@@ -117,7 +117,10 @@ impl App {
         };
         pictures.insert(drawn.path, picture);
         while pictures.len() > KEPT_PICTURES {
-            let oldest = thumbnails.order.iter().position(|path| !thumbnails.wanted.contains(path));
+            let oldest = thumbnails
+                .order
+                .iter()
+                .position(|path| !thumbnails.wanted.contains(path));
             let path = thumbnails.order.remove(oldest.unwrap_or(0));
             pictures.remove(&path);
         }

@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use super::background::{BatchResult, BatchTask, evaluate_batch};
-use super::{EVALUATED_AT_ONCE, ManyCommand, EvaluationProgress, TableRow, ordered};
+use super::{EVALUATED_AT_ONCE, EvaluationProgress, ManyCommand, TableRow, ordered};
 use crate::app::state::State;
 use crate::app::{App, Source};
 use crate::evaluate::{Outcome, RowStore, StoreKind, StoreProblem};
@@ -87,7 +87,7 @@ impl App {
             }
             ManyCommand::GoWorse(by) => self.go_worse(by),
             ManyCommand::Picture(places) => self.want_pictures(&places),
-            ManyCommand::Wish(wish) => self.state.many.sweep.wish = *wish,
+            ManyCommand::SweepRanges(ranges) => self.state.many.sweep.ranges = *ranges,
             ManyCommand::Sweep => self.sweep(),
             ManyCommand::SaveResults(into) => self.save_results(into),
             ManyCommand::CancelSweep => self.cancel_sweep(),

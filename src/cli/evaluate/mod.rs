@@ -23,7 +23,7 @@ use sweep::SweepOption;
 pub(super) struct Evaluate {
     /// The folder with the clouds (PLY)
     folder: PathBuf,
-    /// Which reference the error is measured against
+    /// Reference axis of the error
     #[arg(long, value_enum, default_value = "auto")]
     truth: TruthChoice,
     /// The folder for results.csv, results.parquet, summary.json, report.html and the figures
@@ -35,13 +35,13 @@ pub(super) struct Evaluate {
     /// Also map the mean error over settings: u=FROM..TO[:STEP] and tau=FROM..TO[:STEP], either or both
     #[arg(long, value_name = "RANGE", num_args = 1..=2)]
     sweep: Vec<SweepOption>,
-    /// Do only the I-th of N parts of the folder, for a job array; the parts' results join by concatenation
+    /// Evaluate only the I-th of N parts of the folder, for a job array; the parts' results can be concatenated
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Take what an earlier run into the same folder has finished, where cloud and settings are the same
+    /// Reuse the rows that an earlier run into the same folder finished, if cloud and settings are the same
     #[arg(long)]
     resume: bool,
-    /// Pictures of the worst clouds in the report
+    /// Number of pictures of the worst clouds in the report
     #[cfg(feature = "window")]
     #[arg(long, value_name = "N", default_value_t = 12)]
     pictures: usize,
@@ -52,7 +52,7 @@ pub(super) struct Evaluate {
 /// One of several equal parts of a list.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Shard {
-    /// From 1.
+    /// The number of the part, from 1.
     index: usize,
     of: usize,
 }
@@ -135,7 +135,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Every cloud in the folder, of which there is at least one.
+/// Lists the clouds of a folder; fails if there is none.
 pub(super) fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let clouds = axiscope::fruit::clouds_in(folder).with_context(|| folder.display().to_string())?;
     anyhow::ensure!(
