@@ -158,10 +158,7 @@ fn line(content: &impl Serialize) -> Vec<u8> {
 }
 
 fn checksum(bytes: &[u8]) -> String {
-    let sum = Sha256::digest(bytes);
-    let first = sum.iter().take(DIGITS / 2);
-    let number = first.fold(0_u64, |number, &byte| (number << 8) | u64::from(byte));
-    format!("{number:0DIGITS$x}")
+    hex::encode(&Sha256::digest(bytes)[..DIGITS / 2])
 }
 
 /// The JSON of a whole line whose checksum is right.

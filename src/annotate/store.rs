@@ -9,9 +9,7 @@ use std::path::{Path, PathBuf};
 use super::files::failed;
 use super::journal::{Deed, deed_line, head_line};
 use super::slots::{COPIES, axis_of, choose, find_journal, slot};
-use super::{
-    Annotation, Author, CloudId, Files, Judgment, LONGEST_FILE, Method, Notice, StoreError,
-};
+use super::{Annotation, Author, CloudId, Files, Judgment, LONGEST_FILE, Method, Notice, StoreError};
 use crate::geometry::Unit;
 use crate::undo::History;
 
@@ -134,7 +132,7 @@ impl Store {
         &self.notices
     }
 
-    /// A new state. `now` is the time (RFC 3339, as [`super::rfc3339`] gives it). `Ok` says that it is on
+    /// A new state. `now` is the time (RFC 3339, as [`super::now`] gives it). `Ok` says that it is on
     /// the disk.
     ///
     /// # Errors

@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use super::peduncle::{PeduncleCommand, PeduncleState};
 use super::samples::Sample;
-use crate::app::inspector::look::{Look, Style};
+use crate::app::inspector::look::Look;
 use crate::app::inspector::stages::{Source, Walked};
 use crate::app::many::{ManyCommand, ManyState};
-use crate::app::true_axes::{TrueAxesCommand, TrueAxesState, KeptTrueAxes};
+use crate::app::true_axes::{KeptTrueAxes, TrueAxesCommand, TrueAxesState};
 use crate::app::workers::Progress;
 use crate::evaluate::reference_of;
 use crate::fruit::PeduncleChoice;
@@ -20,7 +20,7 @@ use crate::fruit::Request;
 use crate::geometry::Unit;
 use crate::method::{Analysis, AxisEstimate, Params, PlaneDetail, PointDetail, Preset};
 use crate::render::{Camera, Projection, Viewport};
-use crate::view::{ShownPoints, Theme, ViewPreset};
+use crate::view::{ShownPoints, Style, Theme, ViewPreset};
 
 pub use crate::evaluate::TruthChoice;
 

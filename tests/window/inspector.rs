@@ -48,6 +48,22 @@ fn the_sample_is_shown_analyzed() {
 }
 
 #[test]
+fn warnings_are_listed_behind_their_number() {
+    let mut harness = window();
+    apply(&mut harness, Command::OpenSample(Sample::MissedPepper));
+    apply(&mut harness, Command::UsePreset(Preset::AsPrinted));
+    let warned = harness.state().app().state().warnings.clone();
+    assert!(warned.len() > 1);
+    harness
+        .get_by_label(&format!("{} warnings", warned.len()))
+        .click();
+    settle(&mut harness);
+    for warning in &warned {
+        assert!(harness.query_by_label(warning).is_some(), "{warning}");
+    }
+}
+
+#[test]
 fn each_coloring_has_its_legend() {
     let mut harness = window();
     for coloring in Coloring::ALL {
@@ -396,7 +412,7 @@ fn a_saved_view_is_drawn_again_by_the_command_line() {
 fn no_two_actions_share_a_key_and_every_one_is_in_the_help() {
     let harness = window();
     let state = harness.state().app().state();
-    let all = axiscope::ui::window::actions::actions(state);
+    let all = axiscope::ui::actions(state);
     let mut keys: Vec<_> = all.iter().flat_map(|a| a.keys.iter()).collect();
     let count = keys.len();
     keys.sort_by_key(|key| format!("{key:?}"));
@@ -492,7 +508,7 @@ fn every_sample_opens() {
 #[test]
 fn every_panel_comes_to_the_front() {
     let mut harness = window();
-    for pane in [Pane::Hemisphere, Pane::Contributions, Pane::Files] {
+    for pane in [Pane::Hemisphere, Pane::Contributions, Pane::Clouds] {
         harness.get_by_label(pane.title()).click();
         settle(&mut harness);
     }

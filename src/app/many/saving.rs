@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::app::state::State;
-use crate::app::{App, analysis_options};
+use crate::app::App;
 use crate::evaluate::{Row, Sweep, TruthChoice, WorstPicture, result_files};
 use crate::fruit::Request;
 
@@ -66,7 +66,7 @@ pub fn evaluate_command_line(state: &State) -> Option<Vec<String>> {
         words.extend(["--truth".into(), truth.into()]);
     }
     words.extend(["--out".into(), FOLDER.into()]);
-    words.extend(analysis_options(&state.settings.request));
+    words.extend(state.settings.request.options());
     if state.many.sweep.map.is_some() {
         let ranges = &state.many.sweep.ranges;
         let ([from, to], [low, high]) = (ranges.u, ranges.tau_cm_per_rad);

@@ -2,9 +2,8 @@
 //! that was not saved is ever let go of.
 
 use std::path::PathBuf;
-use std::time::SystemTime;
 
-use crate::annotate::{Annotation, Author, CloudId, Judgment, Store, StoreError, rfc3339};
+use crate::annotate::{Annotation, Author, CloudId, Judgment, Store, StoreError, now};
 use crate::annotate::{DiskFiles, read_annotations};
 use crate::geometry::Unit;
 use crate::undo::History;
@@ -241,10 +240,4 @@ impl Keeper {
 /// It begins with a file's name, whose letters stay as they are.
 fn told(error: &StoreError) -> String {
     format!("{error}.")
-}
-
-/// The time, to the second.
-fn now() -> String {
-    let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
-    rfc3339(since_1970.map_or(0, |since| since.as_secs()))
 }

@@ -4,8 +4,8 @@ use egui::{Key, Modifiers};
 
 use crate::app::many::ManyCommand;
 use crate::app::{Command, State};
-use crate::ui::window::actions::{Action, Group, WindowAct};
-use crate::ui::window::layout::Pane;
+use crate::ui::action::{Action, Group, WindowAct};
+use crate::ui::pane::Pane;
 
 /// Returns the actions.
 pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {

@@ -12,7 +12,7 @@ mod tagging;
 use egui::Ui;
 
 use crate::app::{Command, State};
-use crate::ui::window::layout::Pane;
+use crate::ui::pane::Pane;
 
 /// A request of a panel to the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,8 +10,8 @@ use crate::app::{Command, State};
 use crate::evaluate::Sweep;
 use crate::method::CandidateGrid;
 use crate::ui::widgets::controls::hint;
+use crate::ui::widgets::marks::ramp_color;
 use crate::ui::widgets::marks::{self, Mark};
-use crate::ui::widgets::planes::ramp_color;
 
 /// Draws the panel.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {

@@ -5,7 +5,7 @@ use egui::{Button, ComboBox, Response, Role as Spoken, TextEdit, Ui, WidgetInfo}
 use super::say;
 use crate::annotate::{Confidence, Ends, Judgment, Method, NUDGES_DEG, Pivot};
 use crate::app::true_axes::{Ghost, Turn};
-use crate::app::{TrueAxesCommand, Command, State};
+use crate::app::{Command, State, TrueAxesCommand};
 use crate::ui::panels::parameters::Triple;
 use crate::ui::widgets::controls::{Number, hint, row};
 

@@ -11,7 +11,7 @@ use crate::helpers::in_window::{Windowed, apply, compare, press, settle, state};
 use axiscope::annotate::DiskFiles;
 use axiscope::annotate::{Annotation, Author, CloudId, Ends, Judgment, Store};
 use axiscope::app::true_axes::{EditView, Handle};
-use axiscope::app::{TrueAxesState, Command, Session};
+use axiscope::app::{Command, Session, TrueAxesState};
 use axiscope::fruit::{Fruit, PeduncleChoice};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
