@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Fruit, PeduncleChoice};
 use crate::geometry::{Cloud, Unit};
-use crate::method::{NormalSource, Params};
+use crate::method::{NormalSource, Params, Preset};
 
 /// What to do with a cloud, before anything is known of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -19,6 +19,19 @@ pub struct Request {
     pub normals: Option<NormalSource>,
     /// Everything else. Its unit and source of normals are not looked at.
     pub params: Params,
+}
+
+impl Default for Request {
+    /// Returns the preset "as intended", with the unit, the peduncle and the normals that the file has.
+    fn default() -> Self {
+        Self {
+            unit: None,
+            peduncle: PeduncleChoice::Auto,
+            without_peduncle: false,
+            normals: None,
+            params: Params::new(Preset::AsIntended, Unit::Centimeter),
+        }
+    }
 }
 
 impl Request {
