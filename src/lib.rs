@@ -101,6 +101,7 @@ pub mod simulate;
 pub mod text;
 #[cfg(feature = "window")]
 pub mod ui;
+pub mod undo;
 pub mod view;
 
 pub use glam;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use axiscope::annotate::exchange::{ImportedRow, read_table, write_table};
 use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement};
-use axiscope::annotate::{annotation_paths, read_annotations};
+use axiscope::annotate::{annotation_paths, now, read_annotations};
 use axiscope::evaluate::Row;
 use axiscope::fruit::{Fruit, PeduncleChoice, read_cloud};
 use axiscope::geometry::Unit;
@@ -16,7 +16,6 @@ use serde::Serialize;
 
 use super::annotate::open;
 use super::evaluate::clouds_in;
-use super::now;
 use super::options::{OrAuto, positive, unit_or_auto};
 
 #[derive(Debug, Args)]

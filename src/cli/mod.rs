@@ -195,12 +195,6 @@ fn use_threads(threads: usize) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns the time, to the second, for annotations.
-fn now() -> String {
-    let since_1970 = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-    axiscope::annotate::rfc3339(since_1970.map_or(0, |since| since.as_secs()))
-}
-
 /// Returns an error in the use of the command line that shows only after parsing; it ends the program with status 2.
 fn usage_error(message: &str) -> anyhow::Error {
     clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{message}\n")).into()

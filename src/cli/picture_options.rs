@@ -1,9 +1,8 @@
 //! The options of a picture.
 
-use axiscope::app::Drawing;
 use axiscope::evaluate::TruthChoice;
 use axiscope::render::{Camera, Projection};
-use axiscope::view::{Coloring, Overlays, Theme, ViewPreset};
+use axiscope::view::{Coloring, Drawing, Overlays, Style, Theme, ViewPreset};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
@@ -53,20 +52,21 @@ impl Picture {
     pub(super) fn drawing(&self) -> Drawing {
         Drawing {
             size_px: self.size,
-            coloring: self.color,
+            style: Style {
+                coloring: self.color,
+                overlays: self.overlays.clone().unwrap_or_default(),
+                theme: self.background,
+                point_size: self.point_size.map(|px| px as f32),
+                eye_dome: !self.flat,
+            },
             plane: self.plane,
             view: self.view,
             camera: self.camera,
-            reference: self.reference,
-            overlays: self.overlays.clone().unwrap_or_default(),
-            theme: self.background,
-            point_size_px: self.point_size,
             projection: if self.orthographic {
                 Projection::Orthographic
             } else {
                 Projection::Perspective
             },
-            is_shaded: !self.flat,
             has_angle: true,
         }
     }

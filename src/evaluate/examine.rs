@@ -36,6 +36,23 @@ pub struct Examined {
     pub warnings: Vec<String>,
 }
 
+#[cfg(feature = "window")]
+impl Examined {
+    /// The cloud as it is drawn: under `name`, and compared with the reference that `choice` asks for, or else with
+    /// the first one.
+    pub fn drawn<'a>(&'a self, name: &'a str, choice: TruthChoice) -> crate::view::DrawnCloud<'a> {
+        let references = &self.references;
+        crate::view::DrawnCloud {
+            name,
+            cloud: self.fruit.cloud(),
+            unit: self.fruit.unit,
+            analysis: &self.analysis,
+            references,
+            reference: reference_of(references, choice).or(references.first()),
+        }
+    }
+}
+
 /// Analyzes a fruit as asked, and gathers its references.
 ///
 /// # Errors

@@ -169,7 +169,7 @@ fn digest(bytes: &[u8], watch: &dyn Watch) -> Result<String, Cancelled> {
         }
         hasher.update(piece);
     }
-    Ok(hexadecimal(&hasher.finalize()))
+    Ok(hex::encode(hasher.finalize()))
 }
 
 /// Bytes between two looks at the watch: a few milliseconds.
@@ -205,22 +205,7 @@ fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
 
 /// SHA-256 of some bytes, in 64 lowercase hexadecimal digits.
 pub fn sha256_hex(bytes: &[u8]) -> String {
-    hexadecimal(&Sha256::digest(bytes))
-}
-
-/// Two digits a byte.
-fn hexadecimal(bytes: &[u8]) -> String {
-    let digit = |value: u8| {
-        char::from(if value < 10 {
-            b'0' + value
-        } else {
-            b'a' + value - 10
-        })
-    };
-    bytes
-        .iter()
-        .flat_map(|&byte| [digit(byte >> 4), digit(byte & 15)])
-        .collect()
+    hex::encode(Sha256::digest(bytes))
 }
 
 /// A path as it may stand in a message: names of files may hold line ends.

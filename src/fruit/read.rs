@@ -9,7 +9,7 @@ use crate::annotate::Annotation;
 use crate::annotate::read_annotations;
 use crate::geometry::{Cloud, Unit};
 use crate::parallel::Watch;
-use crate::peduncle::{HueRange, Peduncle, PeduncleError};
+use crate::peduncle::{HueRange, Peduncle, PeduncleError, PeduncleSource};
 use crate::simulate::Truth;
 
 /// Where to look for the peduncle.
@@ -176,6 +176,26 @@ impl Fruit {
     /// The file's cloud.
     pub fn cloud(&self) -> &Cloud {
         &self.file.ply.cloud
+    }
+
+    /// Labels of the cloud's points that name the peduncle as it was found; `None` if the file's own labels name it,
+    /// or there is none.
+    pub fn labels_by_peduncle(&self) -> Option<Vec<i32>> {
+        let peduncle = self.peduncle.as_ref()?;
+        if peduncle.source == PeduncleSource::Label {
+            return None;
+        }
+        let cloud = self.cloud();
+        // Points that the file alone calls peduncle belong to the fruit.
+        let in_file = |i: usize| match cloud.labels().map(|labels| labels[i]) {
+            None | Some(Cloud::PEDUNCLE) => Cloud::FRUIT,
+            Some(other) => other,
+        };
+        let mut labels: Vec<i32> = (0..cloud.len()).map(in_file).collect();
+        for &i in &peduncle.in_cloud {
+            labels[i] = Cloud::PEDUNCLE;
+        }
+        Some(labels)
     }
 
     /// The cloud without the peduncle's points; the whole cloud where there are none.

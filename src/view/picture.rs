@@ -1,4 +1,4 @@
-//! A drawn picture with its annotations as a PNG that carries its settings.
+//! A picture, with the primitives painted over it, as a PNG that carries its settings.
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::charts::{raster, text};
 use crate::render::{Color, Image};
-use crate::view::{Anchor, Annotation};
+use crate::view::{Anchor, Primitive};
 
 /// The key of the text chunk that holds the settings.
 pub const SETTINGS_KEY: &str = "axiscope";
@@ -29,7 +29,7 @@ pub struct PictureSettings {
 /// Why a picture could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    /// The annotations could not be painted.
+    /// The primitives could not be painted.
     #[error("the picture's texts could not be drawn: {0}")]
     Paint(String),
     /// The PNG could not be encoded.
@@ -54,12 +54,12 @@ pub fn text_width_px(text: &str, size_px: f64) -> f64 {
     text::width(text, 1000) * size_px / 1000.0
 }
 
-/// Paints annotations onto a picture, with the bundled font.
+/// Paints primitives onto a picture, with the bundled font.
 ///
 /// # Errors
 /// Where there is no memory for it.
-pub fn paint_annotations(image: &mut Image, annotations: &[Annotation]) -> Result<(), PictureError> {
-    let svg = svg_of(image.width_px, image.height_px, annotations);
+pub fn paint_primitives(image: &mut Image, primitives: &[Primitive]) -> Result<(), PictureError> {
+    let svg = svg_of(image.width_px, image.height_px, primitives);
     let options = usvg::Options {
         fontdb: raster::fonts(),
         ..usvg::Options::default()
@@ -132,21 +132,21 @@ pub fn decode_picture(png_bytes: &[u8]) -> Option<Image> {
     })
 }
 
-/// The annotations as an SVG document of the picture's size.
-fn svg_of(width_px: u32, height_px: u32, annotations: &[Annotation]) -> String {
+/// The primitives as an SVG document of the picture's size.
+fn svg_of(width_px: u32, height_px: u32, primitives: &[Primitive]) -> String {
     let mut svg =
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width_px}\" height=\"{height_px}\">");
-    for (index, annotation) in annotations.iter().enumerate() {
+    for (index, primitive) in primitives.iter().enumerate() {
         // Writing to a string cannot fail.
-        let _ = add(&mut svg, index, annotation);
+        let _ = add(&mut svg, index, primitive);
     }
     svg.push_str("</svg>");
     svg
 }
 
-fn add(svg: &mut String, index: usize, annotation: &Annotation) -> std::fmt::Result {
-    match annotation {
-        Annotation::Text {
+fn add(svg: &mut String, index: usize, primitive: &Primitive) -> std::fmt::Result {
+    match primitive {
+        Primitive::Text {
             at,
             anchor,
             size_px,
@@ -174,7 +174,7 @@ fn add(svg: &mut String, index: usize, annotation: &Annotation) -> std::fmt::Res
             }
             write!(svg, "<text {place} {}>{words}</text>", paint("fill", *color))
         }
-        Annotation::Line {
+        Primitive::Line {
             from,
             to,
             width_px,
@@ -188,7 +188,7 @@ fn add(svg: &mut String, index: usize, annotation: &Annotation) -> std::fmt::Res
             to.y,
             paint("stroke", *color)
         ),
-        Annotation::Box { min, max, color } => write!(
+        Primitive::Box { min, max, color } => write!(
             svg,
             "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" rx=\"3\" {}/>",
             min.x,
@@ -197,7 +197,7 @@ fn add(svg: &mut String, index: usize, annotation: &Annotation) -> std::fmt::Res
             max.y - min.y,
             paint("fill", *color)
         ),
-        Annotation::Ramp { min, max, stops } => {
+        Primitive::Ramp { min, max, stops } => {
             write!(svg, "<linearGradient id=\"ramp{index}\">")?;
             let last = stops.len().saturating_sub(1).max(1);
             for (i, c) in stops.iter().enumerate() {

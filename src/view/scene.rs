@@ -4,34 +4,41 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::annotation::Theme;
 use super::coloring::{Colored, Subject};
-use super::overlays::{Overlay, Overlays};
+use super::overlays::Overlay;
 use super::palette::{ORANGE, PINK, SKY};
+use super::primitive::Theme;
 use super::shown::ShownPoints;
+use super::style::Style;
 use crate::geometry::{Extent, Plane};
 use crate::method::{AxisEstimate, AxisSource};
 use crate::render::{Color, EyeDome, Line, Points, Polygon, Scene};
 
 /// How an analysis is drawn.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct SceneSettings<'a> {
-    /// What is drawn over the points.
-    pub overlays: &'a Overlays,
-    /// Light on dark, or dark on light.
-    pub theme: Theme,
-    /// A point's diameter in pixels.
+    /// How the cloud is drawn, whatever the plane.
+    pub style: &'a Style,
+    /// A point's diameter in physical pixels.
     pub point_size_px: f32,
-    /// 0 is no eye-dome lighting, 1 the usual strength.
-    pub eye_dome_strength: f32,
-    /// The plane that is looked at.
+    /// The plane.
     pub plane: Option<Plane>,
-    /// The axis that follows from it.
+    /// The plane's axis.
     pub axis: Option<&'a AxisEstimate>,
     /// The axis that it is compared with.
     pub reference: Option<&'a AxisEstimate>,
-    /// All axes that there are to compare with.
+    /// All axes to compare with.
     pub references: &'a [AxisEstimate],
+}
+
+impl SceneSettings<'_> {
+    fn has(&self, overlay: Overlay) -> bool {
+        self.style.overlays.has(overlay)
+    }
+
+    fn theme(&self) -> Theme {
+        self.style.theme
+    }
 }
 
 /// The computed axis is green, as in the paper's figures.
@@ -57,12 +64,12 @@ const NORMAL_LINES: usize = 400;
 pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSettings<'_>) -> Scene {
     let extent = subject.shown.extent;
     let size = extent.size().length().max(1e-9);
-    let has = |overlay| settings.overlays.has(overlay);
+    let has = |overlay| settings.has(overlay);
     let local = |p: DVec3| (p - extent.center()).as_vec3();
     let mut colors = colored.colors.clone();
     if let Some(plane) = settings.plane.filter(|_| has(Overlay::Plane)) {
         let positions = &subject.shown.positions;
-        brighten_cut(positions, &mut colors, &plane, 0.006 * size, settings.theme);
+        brighten_cut(positions, &mut colors, &plane, 0.006 * size, settings.theme());
     }
     let mut scene = points_alone(subject.shown, colors.into(), settings);
     if let Some(plane) = settings.plane.filter(|_| has(Overlay::Ghost)) {
@@ -107,7 +114,7 @@ pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSett
         add_partner_lines(&mut scene, subject);
     }
     if has(Overlay::Normals) {
-        add_normals(&mut scene, subject, 0.05 * size, settings.theme);
+        add_normals(&mut scene, subject, 0.05 * size, settings.theme());
     }
     scene.fit_bounds();
     scene
@@ -121,10 +128,10 @@ pub fn build_bare_scene(shown: &ShownPoints, colored: &Colored, settings: &Scene
 }
 
 fn points_alone(shown: &ShownPoints, colors: Arc<[Color]>, settings: &SceneSettings<'_>) -> Scene {
-    let mut scene = Scene::empty(settings.theme.background());
+    let mut scene = Scene::empty(settings.theme().background());
     scene.origin_in_world = shown.extent.center();
     scene.eye_dome = EyeDome {
-        strength: settings.eye_dome_strength,
+        strength: if settings.style.eye_dome { 1.0 } else { 0.0 },
         scale: (0.5 * shown.extent.size().length().max(1e-9)) as f32,
     };
     scene.points.push(Points {
@@ -153,18 +160,17 @@ pub fn framed_cloud(shown: &ShownPoints) -> Vec<DVec3> {
 }
 
 /// What must be in the picture: the bulk of the points (no stray decides), the plane and the axes.
-pub fn framed_points(subject: Subject<'_>, settings: &SceneSettings<'_>) -> Vec<DVec3> {
-    let extent = subject.shown.extent;
-    let mut framed = framed_cloud(subject.shown);
-    let size = extent.size().length();
-    if let Some(plane) = settings.plane.filter(|_| settings.overlays.has(Overlay::Plane)) {
-        framed.extend(plane_corners(subject, &plane, settings.axis));
+pub fn framed_points(shown: &ShownPoints, settings: &SceneSettings<'_>) -> Vec<DVec3> {
+    let mut framed = framed_cloud(shown);
+    let size = shown.extent.size().length();
+    if let Some(plane) = settings.plane.filter(|_| settings.has(Overlay::Plane)) {
+        framed.extend(plane_corners(shown, &plane, settings.axis));
     }
     for (estimate, overlay) in [
         (settings.axis, Overlay::Axis),
         (settings.reference, Overlay::Reference),
     ] {
-        if let Some(axis) = estimate.filter(|_| settings.overlays.has(overlay)) {
+        if let Some(axis) = estimate.filter(|_| settings.has(overlay)) {
             framed.extend(axis_ends(axis, size));
         }
     }
@@ -212,7 +218,7 @@ fn brighten_cut(positions: &[DVec3], colors: &mut [Color], plane: &Plane, half_w
 }
 
 /// A rectangle in the plane, along the axis where there is one, around the bulk of the points.
-fn plane_corners(subject: Subject<'_>, plane: &Plane, axis: Option<&AxisEstimate>) -> [DVec3; 4] {
+fn plane_corners(shown: &ShownPoints, plane: &Plane, axis: Option<&AxisEstimate>) -> [DVec3; 4] {
     let along = axis
         .map(|a| a.direction - a.direction.dot(plane.normal) * plane.normal)
         .and_then(DVec3::try_normalize)
@@ -222,7 +228,7 @@ fn plane_corners(subject: Subject<'_>, plane: &Plane, axis: Option<&AxisEstimate
         let q = p - plane.point;
         DVec3::new(q.dot(along), q.dot(across), 0.0)
     };
-    let flat: Vec<DVec3> = bulk_sample(subject.shown).map(in_plane).collect();
+    let flat: Vec<DVec3> = bulk_sample(shown).map(in_plane).collect();
     let extent = Extent::robust(&flat).unwrap_or(Extent {
         min: DVec3::NEG_ONE,
         max: DVec3::ONE,
@@ -245,13 +251,13 @@ fn add_plane(
     settings: &SceneSettings<'_>,
     size: f64,
 ) {
-    let corners = plane_corners(subject, plane, settings.axis);
-    if settings.overlays.has(Overlay::Plane) {
-        let edge = match settings.theme {
+    let corners = plane_corners(subject.shown, plane, settings.axis);
+    if settings.has(Overlay::Plane) {
+        let edge = match settings.theme() {
             Theme::Dark => PLANE,
             Theme::Light => [0x3a, 0x6e, 0xa5, 255],
         };
-        let opacity = if settings.theme == Theme::Dark { 52 } else { 64 };
+        let opacity = if settings.theme() == Theme::Dark { 52 } else { 64 };
         scene.polygons.push(Polygon {
             corners_in_world: corners.to_vec(),
             color: [edge[0], edge[1], edge[2], opacity],
@@ -262,7 +268,7 @@ fn add_plane(
                 .push(Line::new(corners[i], corners[(i + 1) % 4], edge, 1.4).shining_through(0.3));
         }
     }
-    if settings.overlays.has(Overlay::Normal) {
+    if settings.has(Overlay::Normal) {
         let tip = plane.point + 0.4 * size * plane.normal;
         let (a, b) = plane.normal.any_orthonormal_pair();
         let line = |from, to| Line::new(from, to, SKY, 2.2).shining_through(0.5);
@@ -279,8 +285,8 @@ fn add_center_and_viewpoint(scene: &mut Scene, subject: Subject<'_>, settings: &
     let (center, viewpoint) = (subject.analysis.center, subject.analysis.params.viewpoint);
     let dark = [0x10, 0x12, 0x14, 255];
     let yellow = [0xf0, 0xe4, 0x42, 255];
-    if settings.overlays.has(Overlay::Viewpoint) {
-        let quiet = settings.theme.quiet_ink();
+    if settings.has(Overlay::Viewpoint) {
+        let quiet = settings.theme().quiet_ink();
         scene.lines.push(
             Line::new(viewpoint, center, quiet, 1.4)
                 .dashed()
@@ -292,7 +298,7 @@ fn add_center_and_viewpoint(scene: &mut Scene, subject: Subject<'_>, settings: &
                 .shining_through(1.0),
         );
     }
-    if settings.overlays.has(Overlay::Center) {
+    if settings.has(Overlay::Center) {
         scene.lines.push(
             Line::new(center, center, yellow, 8.0)
                 .outlined(dark, 1.5)

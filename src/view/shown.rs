@@ -1,5 +1,6 @@
 //! The points that are shown, and which of them the method used.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -150,6 +151,14 @@ impl ShownPoints {
             labels,
             in_file: None,
             extent,
+        }
+    }
+
+    /// Values of the file's points as values of the shown points.
+    pub(super) fn of_file<'a>(&self, values: &'a [i32]) -> Cow<'a, [i32]> {
+        match &self.in_file {
+            Some(in_file) => in_file.iter().map(|&i| values[i]).collect(),
+            None => values.into(),
         }
     }
 

@@ -46,7 +46,7 @@ pub fn command_line(state: &State, out: &str, size_px: [u32; 2]) -> Vec<String> 
         TruthChoice::Auto | TruthChoice::Peduncle => {}
     }
     if let Some(shown) = state.shown() {
-        let size = super::look::point_size(&state.style, shown.len());
+        let size = state.style.point_size_in_window(shown.len());
         let scaled = size * super::image::picture_scale(state, height_px);
         add("--point-size", scaled.min(100.0).to_string());
     }

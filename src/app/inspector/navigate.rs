@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::look::Look;
 use crate::app::state::State;
 use crate::render::{Camera, Insets, Projection, Viewport};
-use crate::view::{Overlay, Page, SceneSettings, Subject, ViewPreset, framed_cloud, framed_points, insets};
+use crate::view::{Overlay, Page, SceneSettings, ViewPreset, framed_cloud, framed_points, insets};
 
 /// Views are framed with room for what is written over them; widths of texts are taken as those of a
 /// usual font, since nothing is drawn yet.
@@ -28,32 +28,22 @@ fn framed(state: &State) -> (Vec<DVec3>, Insets) {
             .filter(|_| style.overlays.has(Overlay::Legend)),
         scale_unit: None,
         has_triad: false,
-        caption: &[],
+        caption: Vec::new(),
         label: None,
     };
     let mut insets = insets(&page, &measure);
     // Scale bar and triad stand in the lower corners.
     insets.bottom_px += 24.0;
     let points = match (state.analysis(), plane_and_axis(state)) {
-        (Some(analysis), (plane, axis)) => framed_points(
-            Subject {
-                shown,
-                analysis,
-                detail: None,
-            },
+        (Some(_), (plane, axis)) => framed_points(
+            shown,
             &SceneSettings {
-                overlays: &style.overlays,
-                theme: style.theme,
+                style,
                 point_size_px: 1.0,
-                eye_dome_strength: 0.0,
                 plane,
                 axis: axis.as_ref(),
-                reference: state.reference().filter(|_| !state.annotating.is_blind),
-                references: if state.annotating.is_blind {
-                    &[]
-                } else {
-                    &state.references
-                },
+                reference: state.reference().filter(|_| !state.true_axes.is_blind),
+                references: &[],
             },
         ),
         (None, _) => framed_cloud(shown),
@@ -67,7 +57,7 @@ fn plane_and_axis(
     Option<crate::geometry::Plane>,
     Option<crate::method::AxisEstimate>,
 ) {
-    if state.annotating.is_blind {
+    if state.true_axes.is_blind {
         return (None, None);
     }
     let plane = state.analysis().zip(state.chosen_plane_index()).map(|(a, i)| {

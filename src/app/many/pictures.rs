@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use crate::app::{Drawing, analysis_options, draw_cloud};
+use crate::app::analysis_options;
 use crate::evaluate::{Examined, Row, TruthChoice, WorstPicture, examine, worst_first};
 use crate::fruit::Fruit;
 use crate::fruit::Request;
 use crate::render::{Gpu, Image, Projection};
-use crate::view::{Coloring, Overlays, Theme, ViewPreset};
-use crate::view::{PictureSettings, encode_picture};
+use crate::view::{
+    Coloring, Drawing, Overlays, PictureSettings, Style, Theme, ViewPreset, draw_cloud, encode_picture,
+};
 
 /// The size of the report's pictures, in pixels.
 const REPORT_PX: [u32; 2] = [560, 420];
@@ -101,21 +102,23 @@ pub(super) fn picture(
 ) -> Result<Image, String> {
     let drawing = Drawing {
         size_px,
-        coloring: Coloring::Side,
+        style: Style {
+            coloring: Coloring::Side,
+            // A list of the program's own.
+            overlays: OVERLAYS.parse::<Overlays>().unwrap_or_default(),
+            theme,
+            point_size: None,
+            eye_dome: true,
+        },
         plane: None,
         view: ViewPreset::Camera,
         camera: None,
-        reference,
-        // A list of the program's own.
-        overlays: OVERLAYS.parse::<Overlays>().unwrap_or_default(),
-        theme,
-        point_size_px: None,
         projection: Projection::Perspective,
-        is_shaded: true,
         // A small picture has no room for words.
         has_angle: size_px == REPORT_PX,
     };
     let path = &examined.fruit.file.path;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    draw_cloud(examined, &drawing, &name, gpu).map_err(|error| format!("{}: {error}", path.display()))
+    draw_cloud(&examined.drawn(&name, reference), &drawing, gpu, &())
+        .map_err(|error| format!("{}: {error}", path.display()))
 }

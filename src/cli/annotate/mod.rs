@@ -10,7 +10,7 @@ use anyhow::Context;
 use axiscope::annotate::DiskFiles;
 use axiscope::annotate::exchange::{Placement, SlicerFrame, place, read_lines, write_line};
 use axiscope::annotate::{
-    Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError,
+    Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError, now,
 };
 use axiscope::evaluate::{Examined, examine, start_axis};
 use axiscope::fruit::Fruit;
@@ -19,7 +19,7 @@ use clap::{Args, ValueEnum};
 
 use super::options::AnalysisOptions;
 use super::progress::StageClock;
-use super::{now, usage_error};
+use super::usage_error;
 use change::Change;
 
 #[derive(Debug, Args)]

@@ -12,7 +12,7 @@ mod tagging;
 use egui::Ui;
 
 use crate::app::{Command, State};
-use crate::ui::window::layout::Pane;
+use crate::ui::pane::Pane;
 
 /// What a panel of clouds cannot do itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! What is written and drawn over the picture in pixels, as data.
+//! The 2-D primitives painted over a picture, positioned in pixels.
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -16,9 +16,9 @@ pub enum Anchor {
     End,
 }
 
-/// One thing to be painted; positions in pixels from the upper left corner.
+/// A line of text, a line, a box or a color ramp; positions in pixels from the upper left corner.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Annotation {
+pub enum Primitive {
     /// A line of text.
     Text {
         /// Its baseline's place.
