@@ -2,9 +2,9 @@
 //! drawn small, and swept over settings.
 
 mod background;
+mod cloud_rows;
 mod saving;
 mod sweeping;
-mod cloud_rows;
 mod tag_store;
 mod tagging;
 mod thumbnails;
@@ -24,9 +24,9 @@ use crate::evaluate::{Tagged, TruthChoice};
 use crate::fruit::Request;
 use crate::parallel::BackgroundPool;
 
-pub use saving::evaluate_command_line;
-pub use sweeping::{MOST_TAUS, SweepState, SweepRanges};
 pub use cloud_rows::{Column, Filter, Sort, TableRow, ordered};
+pub use saving::evaluate_command_line;
+pub use sweeping::{MOST_TAUS, SweepRanges, SweepState};
 pub use thumbnails::{KEPT_PICTURES, Thumbnail, Thumbnails};
 
 use background::{BatchContext, BatchResult};

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::app::state::State;
 use crate::app::App;
+use crate::app::state::State;
 use crate::evaluate::{Row, Sweep, TruthChoice, WorstPicture, result_files};
 use crate::fruit::Request;
 
