@@ -21,7 +21,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! // As the paper's authors meant the method, with the unit and the peduncle that the file states.
 //! let request = Request::default();
-//! let fruit = Fruit::read("assets/pepper.ply".as_ref(), request.unit, &request.peduncle)?;
+//! let fruit = Fruit::read("assets/pepper.ply".as_ref(), &request)?;
 //! let examined = examine(fruit, &request, &())?;
 //!
 //! // This pepper was simulated: its true axis lies in a file beside it.
