@@ -18,10 +18,10 @@ pub use watch::{Cancelled, Watch};
 /// the results in the order of the ranges.
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
+/// Returns [`Cancelled`] if the watch cancels the work.
 ///
 /// # Panics
-/// Where `piece` is zero.
+/// Panics if `piece` is zero.
 pub fn map_pieces<T: Send>(
     len: usize,
     piece: usize,
@@ -38,15 +38,15 @@ pub fn map_pieces<T: Send>(
         watch.advanced(done.fetch_add(1, Ordering::Relaxed) + 1, pieces);
         Ok(result)
     };
-    // Each piece may go to another core: what is left at the end is then as even as it can be.
+    // Each piece may go to another core, so that all cores end at about the same time.
     #[cfg(feature = "parallel")]
     return (0..pieces).into_par_iter().with_max_len(1).map(one).collect();
     #[cfg(not(feature = "parallel"))]
     (0..pieces).map(one).collect()
 }
 
-/// Threads of one's own, beside those that everything else shares: what runs on them may wait without
-/// holding up anybody else.
+/// Threads beside those that everything else shares: work on them may wait without delaying any other
+/// work.
 #[derive(Debug)]
 pub struct Crew {
     #[cfg(feature = "parallel")]
@@ -54,7 +54,7 @@ pub struct Crew {
 }
 
 impl Crew {
-    /// As many threads as there are cores but one, at least one.
+    /// Starts one thread fewer than there are cores, at least one.
     pub fn new() -> Self {
         #[cfg(feature = "parallel")]
         {
@@ -67,8 +67,8 @@ impl Crew {
         Self {}
     }
 
-    /// Runs `work` once on each of the threads, and waits for all; on the caller's where there are none.
-    /// What it does in parallel stays on these threads.
+    /// Runs `work` once on each of the threads, and waits for all; on the caller's thread if there are none.
+    /// Parallel work within it stays on these threads.
     pub fn each(&self, work: impl Fn() + Sync) {
         #[cfg(feature = "parallel")]
         if let Some(pool) = &self.pool {
@@ -78,8 +78,8 @@ impl Crew {
         work();
     }
 
-    /// Runs `work` on one of the threads, and what it does in parallel on all of them; on the caller's
-    /// where there are none.
+    /// Runs `work` on one of the threads, and parallel work within it on all of them; on the caller's thread
+    /// if there are none.
     pub fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         #[cfg(feature = "parallel")]
         if let Some(pool) = &self.pool {
@@ -95,7 +95,7 @@ impl Default for Crew {
     }
 }
 
-/// Runs both, at the same time where there are cores for it.
+/// Runs both functions, at the same time if there are cores for it.
 pub(crate) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
     rayon::join(a, b);
