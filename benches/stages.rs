@@ -5,14 +5,14 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::num::NonZeroUsize;
 
+use axiscope::fruit::parse_cloud;
 use axiscope::geometry::{Cloud, Plane, Unit, estimate_normals};
-use axiscope::io::parse_cloud;
-use axiscope::io::ply::{self, Encoding, WriteOptions};
 use axiscope::method::{
     Aggregation, CandidateGrid, CenterMethod, Preset, RandomSearch, Ranking, Surface, TAU_CM_PER_RAD,
     find_center, fit_sphere, plane_detail, plane_terms,
 };
 use axiscope::neighbors::Neighbors;
+use axiscope::ply::{self, Encoding, WriteOptions};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::DVec3;
 

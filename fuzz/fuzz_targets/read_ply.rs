@@ -2,7 +2,7 @@
 
 #![no_main]
 
-use axiscope::io::ply::{Encoding, Precision, WriteOptions, read, write};
+use axiscope::ply::{Encoding, Precision, WriteOptions, read, write};
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     match read(bytes) {

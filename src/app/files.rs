@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use super::stages::Source;
 use super::state::{Entry, State};
-use crate::evaluate::clouds_in;
+use crate::app::inspector::stages::Source;
+use crate::fruit::clouds_in;
 
 /// Files that are remembered as opened lately.
 const MOST_RECENT: usize = 12;

@@ -8,10 +8,11 @@ use anyhow::Context;
 use axiscope::evaluate::{
     AnalysisReport, Examined, Timings, TruthChoice, examine, peduncle_disagreement_deg, reference_of,
 };
+use axiscope::fruit::Fruit;
 use axiscope::geometry::Unit;
-use axiscope::io::Fruit;
+use axiscope::method::axis_error_rad;
 use axiscope::method::{Aggregation, Analysis, AxisEstimate, CenterMethod, Stage};
-use axiscope::reference::{PeduncleSource, axis_error_rad};
+use axiscope::peduncle::PeduncleSource;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 
@@ -41,7 +42,7 @@ pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
     let started = Instant::now();
     let request = args.analysis.request();
     let clock = StageClock::new();
-    let fruit = Fruit::read_watched(&args.cloud, request.unit, &request.peduncle, &clock)?;
+    let fruit = Fruit::read_watched(&args.cloud, &request, &clock)?;
     let read = milliseconds_since(started);
     let examined = examine(fruit, &request, &clock);
     let times = clock.finish();

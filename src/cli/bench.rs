@@ -9,12 +9,12 @@ use std::process::Command;
 use std::time::Instant;
 
 use anyhow::Context;
+use axiscope::fruit::read_cloud;
 use axiscope::geometry::{Cloud, Plane, Unit, estimate_normals};
-use axiscope::io::ply::{self, Encoding, WriteOptions};
-use axiscope::io::read_cloud;
 use axiscope::method::{
     CandidateGrid, CenterMethod, Preset, RandomSearch, Surface, find_center, plane_detail, plane_terms,
 };
+use axiscope::ply::{self, Encoding, WriteOptions};
 use clap::Args;
 use glam::{DVec3, Vec3};
 

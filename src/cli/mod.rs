@@ -192,12 +192,6 @@ fn use_threads(threads: usize) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The time, to the second, for what is written into annotations.
-fn now() -> String {
-    let since_1970 = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-    axiscope::annotate::rfc3339(since_1970.map_or(0, |since| since.as_secs()))
-}
-
 /// An error of whoever typed the command line, found only after it was parsed.
 fn usage_error(message: &str) -> anyhow::Error {
     clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{message}\n")).into()

@@ -1,22 +1,18 @@
-//! One cloud against every reference at once, and the files that its row follows from.
+//! The comparison of one cloud with all of its references at once.
 
-use std::collections::HashMap;
-use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Examined, Request, Row, TruthChoice, examine, peduncle_disagreement_deg, reference_of};
-use crate::annotate::axis_file_of;
-use crate::io::{Fruit, FruitError, PeduncleChoice, ReadErrorKind, companion_path, removed_path, truth_path};
-use crate::method::{Analysis, AxisEstimate, Observe};
+use super::{Examined, Row, TruthChoice, examine, peduncle_disagreement_deg, reference_of};
+use crate::fruit::{Fruit, FruitError, ReadErrorKind, Request};
+use crate::method::{Analysis, AxisEstimate, Observe, axis_error_rad};
 use crate::parallel::Cancelled;
-use crate::reference::axis_error_rad;
 
-/// A reference axis that is known of a cloud.
+/// A reference axis of a cloud, and the error against it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KnownAxis {
-    /// Where it comes from, as in [`Row::truth`].
+    /// Its origin, as in [`Row::truth`].
     pub name: String,
     /// Its direction.
     pub direction: [f64; 3],
@@ -24,10 +20,10 @@ pub struct KnownAxis {
     pub error_deg: Option<f64>,
 }
 
-/// What came of one cloud, measured against each reference that is known of it.
+/// The result of one cloud against each of its reference axes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
-    /// Measured against [`TruthChoice::Auto`].
+    /// The row against [`TruthChoice::Auto`].
     row: Row,
     peduncle: Option<KnownAxis>,
     #[serde(default)]
@@ -37,7 +33,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Of a cloud that could not be read or analyzed.
+    /// Creates the outcome of a cloud that could not be read or analyzed.
     pub fn failed(file: &str, failure: String) -> Self {
         Self {
             row: Row::failed(file, failure),
@@ -48,7 +44,7 @@ impl Outcome {
         }
     }
 
-    /// Of a cloud that was examined.
+    /// Creates the outcome of an analyzed cloud.
     pub fn of(file: &str, examined: &Examined) -> Self {
         let Examined {
             fruit,
@@ -59,7 +55,7 @@ impl Outcome {
         Self::of_parts(file, fruit, analysis, references, warnings)
     }
 
-    /// As [`Outcome::of`], where the parts lie apart.
+    /// Creates the same outcome as [`Outcome::of`] from the parts.
     pub fn of_parts(
         file: &str,
         fruit: &Fruit,
@@ -119,10 +115,10 @@ impl Outcome {
         outcome
     }
 
-    /// Reads and analyzes the cloud at `path`; whatever goes wrong with it is in its row.
+    /// Reads and analyzes the cloud at `path`. Whatever is wrong with it is in its row.
     ///
     /// # Errors
-    /// Where the work is called off.
+    /// Returns an error if the observer cancels the work.
     pub fn of_file(
         file: &str,
         path: &Path,
@@ -130,7 +126,7 @@ impl Outcome {
         observe: &dyn Observe,
     ) -> Result<(Self, Option<Examined>), Cancelled> {
         let failed = |reason| Ok((Self::failed(file, reason), None));
-        let fruit = match Fruit::read_watched(path, request.unit, &request.peduncle, observe) {
+        let fruit = match Fruit::read_watched(path, request, observe) {
             Ok(fruit) => fruit,
             Err(FruitError::Read(error)) if matches!(error.kind, ReadErrorKind::Cancelled) => {
                 return Err(Cancelled);
@@ -144,19 +140,25 @@ impl Outcome {
         }
     }
 
-    /// Measured against [`TruthChoice::Auto`].
+    /// Returns the row against [`TruthChoice::Auto`].
     pub fn row(&self) -> &Row {
         &self.row
     }
 
-    /// The same, called `file`: what was kept may have had another name.
+    /// Returns the outcome with another file name in its row.
     #[must_use]
     pub fn named(mut self, file: &str) -> Self {
         file.clone_into(&mut self.row.file);
         self
     }
 
-    /// The reference that `choice` asks for, if it is known.
+    /// Adds a sentence to the warnings of the row.
+    pub(super) fn add_warning(&mut self, sentence: &str) {
+        self.row.warnings.push(' ');
+        self.row.warnings.push_str(sentence);
+    }
+
+    /// Returns the chosen reference, if it is known.
     pub fn reference(&self, choice: TruthChoice) -> Option<&KnownAxis> {
         match choice {
             TruthChoice::Peduncle => self.peduncle.as_ref(),
@@ -170,12 +172,12 @@ impl Outcome {
         }
     }
 
-    /// The error in degrees that `choice` asks for.
+    /// Returns the error in degrees against the chosen reference, if there is one.
     pub fn error_deg(&self, choice: TruthChoice) -> Option<f64> {
         self.reference(choice)?.error_deg
     }
 
-    /// Why there is no such error; `None` where there is one.
+    /// Returns the reason, as a clause, why there is no such error; `None` if there is one.
     pub fn failure(&self, choice: TruthChoice) -> Option<&str> {
         if self.row.sha256.is_none() {
             return self.row.failure.as_deref();
@@ -187,7 +189,7 @@ impl Outcome {
         }
     }
 
-    /// The row, measured against `choice`.
+    /// Returns the row against the chosen reference.
     pub fn against(&self, choice: TruthChoice) -> Row {
         let reference = self.reference(choice);
         Row {
@@ -198,81 +200,4 @@ impl Outcome {
             ..self.row.clone()
         }
     }
-}
-
-/// Every cloud in the folder, by name. A companion that holds a peduncle alone is no cloud of its own.
-///
-/// # Errors
-/// Where the folder cannot be read.
-pub fn clouds_in(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let mut clouds = Vec::new();
-    for entry in std::fs::read_dir(folder)? {
-        let entry = entry?;
-        let path = entry.path();
-        let is_ply = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply"));
-        // Only where the folder's own list does not say it is the file asked for.
-        if is_ply && (entry.file_type().is_ok_and(|kind| kind.is_file()) || !path.is_dir()) {
-            clouds.push(path);
-        }
-    }
-    clouds.sort();
-    let companions: std::collections::HashSet<PathBuf> =
-        clouds.iter().map(|path| companion_path(path)).collect();
-    clouds.retain(|path| !companions.contains(path));
-    Ok(clouds)
-}
-
-/// The annotators' files of each of the clouds of one folder, which is read once for all of them.
-pub fn annotations_in(folder: &Path, clouds: &[PathBuf]) -> HashMap<PathBuf, Vec<PathBuf>> {
-    let folder = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return HashMap::new();
-    };
-    let is_axis = |name: &OsString| name.to_string_lossy().ends_with(".axis.json");
-    let names: Vec<OsString> = entries
-        .filter_map(|entry| Some(entry.ok()?.file_name()))
-        .filter(is_axis)
-        .collect();
-    if names.is_empty() {
-        return HashMap::new();
-    }
-    // A cloud's axis files begin with its stem and a dot.
-    let mut by_stem: HashMap<String, Vec<&PathBuf>> = HashMap::new();
-    for cloud in clouds {
-        let stem = cloud.file_stem().unwrap_or_default().to_string_lossy();
-        by_stem.entry(stem.into_owned()).or_default().push(cloud);
-    }
-    let mut found: HashMap<PathBuf, Vec<PathBuf>> = HashMap::new();
-    for name in names {
-        let text = name.to_string_lossy();
-        for (dot, _) in text.match_indices('.') {
-            for cloud in by_stem.get(&text[..dot]).into_iter().flatten() {
-                if axis_file_of(cloud, &name).is_some() {
-                    let paths = found.entry((*cloud).clone()).or_default();
-                    paths.push(cloud.with_file_name(&name));
-                }
-            }
-        }
-    }
-    for paths in found.values_mut() {
-        paths.sort();
-    }
-    found
-}
-
-/// The files whose bytes a cloud's row follows from, the cloud's own first; some may not exist.
-/// `annotations` are those of its annotators.
-pub fn files_behind(path: &Path, request: &Request, annotations: &[PathBuf]) -> Vec<PathBuf> {
-    let mut files = vec![path.to_path_buf(), companion_path(path), truth_path(path)];
-    match &request.peduncle {
-        PeduncleChoice::Removed(folder) => files.push(removed_path(path, folder)),
-        PeduncleChoice::File(companion) => files.push(companion.clone()),
-        _ => {}
-    }
-    files.extend_from_slice(annotations);
-    files
 }

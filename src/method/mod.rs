@@ -14,6 +14,7 @@ mod axis;
 mod candidates;
 mod center;
 mod detail;
+mod error;
 mod params;
 mod partners;
 mod score;
@@ -30,6 +31,7 @@ pub use center::{
     CenterError, CenterMethod, RandomSearch, distance_deviation, find_center, fit_sphere, rms_distance,
 };
 pub use detail::{Partner, PlaneDetail, PointDetail, Side, plane_detail};
+pub use error::axis_error_rad;
 pub use params::{Filters, NormalSource, OutlierFilter, ParamError, Params, Preset, TAU_CM_PER_RAD};
 pub use score::{Aggregation, NoSymmetryPlane, Ranking};
 pub use surface::{Surface, SurfaceError};

@@ -1,43 +1,20 @@
-//! What is drawn: one file a panel. A panel reads the [`State`](crate::app::State) and says
+//! What is drawn. A panel reads the [`State`](crate::app::State) and says
 //! [`Command`](crate::app::Command)s; it changes nothing itself.
 
-mod about;
-pub mod actions;
-pub mod annotating;
-mod color_scale;
-pub mod contributions;
-mod controls;
-mod dialogs;
-pub mod files;
-pub mod folder;
-mod help;
-pub mod hemisphere;
-mod layout;
-mod marks;
-mod menu;
-mod notice;
-mod open;
-mod paint;
-mod palette;
-mod panes;
-pub mod parameters;
+mod action;
+pub mod inspector;
+pub mod many;
+mod pane;
+pub mod panels;
 mod peduncle;
-mod plane_tip;
-mod planes;
-pub mod point;
-pub mod ranking;
-mod rows;
-mod save_image;
-pub mod score_map;
-pub mod scrub;
-mod status;
-mod theme;
-mod view3d;
-mod view_bar;
-pub mod warnings;
+pub mod true_axes;
+mod widgets;
 mod window;
 
-pub use layout::{Pane, first_layout, layout_from};
-pub use open::{OpenError, open_window, session_path};
-pub use theme::set_up;
+pub use action::{Act, Action, Group, WindowAct};
+pub use pane::Pane;
+pub use window::actions::actions;
+pub use window::layout::{first_layout, layout_from};
+pub use window::open::{OpenError, open_window, session_path};
+pub use window::theme::set_up;
 pub use window::{Start, Window};

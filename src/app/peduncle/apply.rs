@@ -6,8 +6,8 @@ use super::edits::Edit;
 use super::{PeduncleCommand, Question, Stroke};
 use crate::app::App;
 use crate::app::state::Command;
+use crate::fruit::{PeduncleChoice, PickedPoints};
 use crate::geometry::PointSet;
-use crate::io::{PeduncleChoice, PickedPoints};
 
 /// The brush's radii in logical pixels.
 const RADII_PX: std::ops::RangeInclusive<f64> = 2.0..=250.0;

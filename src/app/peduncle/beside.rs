@@ -1,11 +1,13 @@
 //! The paper's two experiments on one cloud, side by side: with the peduncle and without it.
 
 use crate::app::App;
-use crate::app::stages::{Source, Stages, WalkError};
-use crate::evaluate::{Request, compared, sentence};
+use crate::app::inspector::stages::{Source, Stages, WalkError};
+use crate::evaluate::compared;
+use crate::fruit::Request;
 use crate::method::AxisSource;
+use crate::method::axis_error_rad;
 use crate::parallel::Watch as _;
-use crate::reference::axis_error_rad;
+use crate::text::sentence;
 
 /// The axis' error against each reference in degrees, or why there is no axis.
 pub type Errors = Result<Vec<(AxisSource, f64)>, String>;
@@ -31,7 +33,7 @@ pub(in crate::app) struct Key {
 
 impl App {
     pub(in crate::app) fn update_beside(&mut self) {
-        if let Some((_, result)) = self.peduncle.besides.take() {
+        if let Some(result) = self.peduncle.besides.take() {
             match result {
                 Ok(beside) => self.state.peduncle.beside = beside,
                 Err(crash) => self.say(true, format!("The comparison broke off by {crash}.")),
@@ -74,7 +76,7 @@ fn errors(
     stages: &mut Stages,
     source: &Source,
     request: &Request,
-    watch: &crate::app::worker::JobWatch,
+    watch: &crate::app::workers::JobWatch,
 ) -> Errors {
     let walked = stages
         .walk(source, request, watch, &|_, _| {})

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::{Question, Saved};
+use crate::annotate::DiskFiles;
 use crate::annotate::Files as _;
 use crate::app::App;
-use crate::app::stages::Source;
+use crate::app::inspector::stages::Source;
+use crate::fruit::{Fruit, companion_path};
 use crate::geometry::PointSet;
-use crate::io::ply::{Precision, WriteError, WriteOptions, write};
-use crate::io::{DiskFiles, Fruit, companion_path};
+use crate::ply::{Precision, WriteError, WriteOptions, write};
 
 /// What came of writing a companion.
 pub(in crate::app) enum Written {
@@ -93,7 +94,7 @@ impl App {
 
     pub(in crate::app) fn update_companions(&mut self) {
         self.compare_companion();
-        let Some((_, result)) = self.peduncle.companions.take() else {
+        let Some(result) = self.peduncle.companions.take() else {
             return;
         };
         match result {

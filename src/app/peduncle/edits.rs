@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::app::App;
 use crate::geometry::PointSet;
-use crate::reference::{grown, median_spacing, shrunk};
+use crate::peduncle::{grown, median_spacing, shrunk};
 
 /// What is to be done with the selection.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,19 +55,19 @@ impl App {
             })
         });
         if let Some(result) = self.peduncle.edits.take_within(crate::app::PATIENCE) {
-            self.accept_edit(result.1);
+            self.accept_edit(result);
         }
     }
 
     fn take_edit(&mut self) {
-        if let Some((_, result)) = self.peduncle.edits.take() {
+        if let Some(result) = self.peduncle.edits.take() {
             self.accept_edit(result);
         }
     }
 
     fn accept_edit(
         &mut self,
-        result: Result<Result<Edited, crate::parallel::Cancelled>, crate::app::worker::Crashed>,
+        result: Result<Result<Edited, crate::parallel::Cancelled>, crate::app::workers::Crashed>,
     ) {
         let edited = match result {
             Ok(Ok(edited)) => edited,

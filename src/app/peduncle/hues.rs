@@ -1,9 +1,9 @@
 //! How a cloud's hues are spread, for the bar that a range of them is chosen on.
 
 use crate::app::App;
+use crate::fruit::PeduncleChoice;
 use crate::geometry::Cloud;
-use crate::io::PeduncleChoice;
-use crate::reference::hue_deg;
+use crate::peduncle::hue_deg;
 
 /// A histogram of hues.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,7 +41,7 @@ impl Hues {
 
 impl App {
     pub(in crate::app) fn update_hues(&mut self) {
-        if let Some((_, Ok(hues))) = self.peduncle.hues.take() {
+        if let Some(Ok(hues)) = self.peduncle.hues.take() {
             self.state.peduncle.hues = hues.map(std::sync::Arc::new);
         }
         let is_wanted = matches!(self.state.settings.request.peduncle, PeduncleChoice::Hue(_));
@@ -65,7 +65,7 @@ impl App {
         self.peduncle
             .hues
             .submit(move |_| Hues::of(walked.fruit.cloud(), &walked.fruit.file.sha256));
-        if let Some((_, Ok(hues))) = self.peduncle.hues.take_within(crate::app::PATIENCE) {
+        if let Some(Ok(hues)) = self.peduncle.hues.take_within(crate::app::PATIENCE) {
             self.state.peduncle.hues = hues.map(std::sync::Arc::new);
         }
     }

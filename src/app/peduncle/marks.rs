@@ -5,11 +5,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::Stroke;
 use crate::app::App;
 use crate::app::PATIENCE;
-use crate::app::look::{Look, next_generation};
+use crate::app::inspector::look::{Look, next_generation};
 use crate::app::state::Tool;
+use crate::fruit::{Fruit, PeduncleChoice};
 use crate::geometry::{Cloud, PointSet};
-use crate::io::{Fruit, PeduncleChoice};
-use crate::reference::{HueRange, hue_deg};
+use crate::peduncle::{HueRange, hue_deg};
 use crate::render::{Camera, Color, Scene, Viewport};
 use crate::view::{Brush, Lasso, PEDUNCLE_MARK, Region, Screen, Theme, faded};
 
@@ -147,7 +147,7 @@ impl App {
     }
 
     fn take_marks(&mut self) {
-        let Some((_, result)) = self.peduncle.marks.take_within(PATIENCE) else {
+        let Some(result) = self.peduncle.marks.take_within(PATIENCE) else {
             return;
         };
         match result {

@@ -7,18 +7,19 @@ use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use axiscope::annotate::DiskFiles;
 use axiscope::annotate::exchange::{Placement, SlicerFrame, place, read_lines, write_line};
 use axiscope::annotate::{
-    Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError,
+    Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError, now,
 };
 use axiscope::evaluate::{Examined, examine, start_axis};
+use axiscope::fruit::Fruit;
 use axiscope::geometry::Extent;
-use axiscope::io::{DiskFiles, Fruit};
 use clap::{Args, ValueEnum};
 
 use super::options::AnalysisOptions;
 use super::progress::StageClock;
-use super::{now, usage_error};
+use super::usage_error;
 use change::Change;
 
 #[derive(Debug, Args)]
@@ -48,7 +49,7 @@ pub(super) struct Annotate {
     export: Option<PathBuf>,
     /// In which of Slicer's frames the cloud is loaded there
     #[arg(long, value_enum, default_value = "lps")]
-    slicer_frame: FrameOption,
+    slicer_frame: SlicerFrame,
     /// The cloud is loaded in Slicer as it is, its numbers taken for millimeters, rather than converted
     #[arg(long)]
     slicer_as_is: bool,
@@ -57,14 +58,6 @@ pub(super) struct Annotate {
     format: Format,
     #[command(flatten)]
     analysis: AnalysisOptions,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-enum FrameOption {
-    /// Left, posterior, superior, Slicer's own choice for PLY files
-    Lps,
-    /// Right, anterior, superior
-    Ras,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
@@ -83,7 +76,7 @@ pub(super) fn run(args: &Annotate) -> anyhow::Result<()> {
     };
     let author = author.map_err(|error| usage_error(&error.to_string()))?;
     let request = args.analysis.request();
-    let fruit = Fruit::read(&args.cloud, request.unit, &request.peduncle)?;
+    let fruit = Fruit::read(&args.cloud, &request)?;
     let (mut store, writable) = open(&args.cloud, &fruit, author)?;
     let mut out = std::io::stdout().lock();
     if let Some(script) = &args.script {
@@ -209,10 +202,7 @@ fn follow(
 impl Annotate {
     fn placement(&self) -> Placement {
         Placement {
-            frame: match self.slicer_frame {
-                FrameOption::Lps => SlicerFrame::Lps,
-                FrameOption::Ras => SlicerFrame::Ras,
-            },
+            frame: self.slicer_frame,
             numbers_as_they_are: self.slicer_as_is,
         }
     }

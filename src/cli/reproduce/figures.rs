@@ -1,6 +1,6 @@
 //! The paper's Fig. 8, 12 and 13, drawn from our runs.
 
-use axiscope::io::figures::{BarChart, BarSeries, Figure, Guide, Labels, LineChart, LinePoint, LineSeries};
+use axiscope::charts::{BarChart, BarSeries, Figure, Guide, Labels, LineChart, LinePoint, LineSeries};
 
 use super::ellipsoids::Depth;
 use super::peppers::{Pepper, PepperErrors};

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use axiscope::geometry::{Cloud, Unit, angle_between_lines_rad, statistical_inliers, voxel_grid};
 use axiscope::method::{Params, Preset, Surface};
 use axiscope::parallel::{Watch, map_pieces};
-use axiscope::reference::Peduncle;
+use axiscope::peduncle::Peduncle;
 use axiscope::simulate::{PepperSettings, Truth, seeds};
 use glam::DVec3;
 

@@ -2,11 +2,11 @@
 
 use egui::{Button, DragValue, RichText, Ui};
 
-use super::super::actions::{Act, Action};
-use super::super::controls::{self, warning_color};
 use super::tools::hint;
 use crate::app::peduncle::PedunclePath;
 use crate::app::{Command, PeduncleCommand, State, Tool};
+use crate::ui::action::{Act, Action};
+use crate::ui::widgets::controls::{self, warning_color};
 use crate::view::PEDUNCLE_MARK;
 
 /// Shows the bar, where a tool is in hand.

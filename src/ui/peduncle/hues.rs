@@ -3,7 +3,7 @@
 use egui::{Color32, Mesh, Response, Sense, Ui, ecolor::Hsva, pos2, vec2};
 
 use crate::app::peduncle::Hues;
-use crate::reference::HueRange;
+use crate::peduncle::HueRange;
 
 /// The height of the histogram, of the colors, and of the line under them.
 const HEIGHTS: [f32; 3] = [34.0, 8.0, 5.0];

@@ -2,13 +2,13 @@
 
 mod bar;
 mod hues;
-pub(super) mod keys;
+pub(in crate::ui) mod keys;
 mod question;
 mod references;
 mod tools;
 
-pub(super) use bar::show as bar;
-pub(super) use hues::show as hue_bar;
-pub(super) use question::show as question;
-pub(super) use references::{beside, show as references};
-pub(super) use tools::{drag, paint};
+pub(in crate::ui) use bar::show as bar;
+pub(in crate::ui) use hues::show as hue_bar;
+pub(in crate::ui) use question::show as question;
+pub(in crate::ui) use references::{beside, show as references};
+pub(in crate::ui) use tools::{drag, paint};

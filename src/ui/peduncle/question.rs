@@ -4,7 +4,7 @@ use egui::{Align2, vec2};
 
 use crate::app::peduncle::Question;
 use crate::app::{Command, PeduncleCommand, Source, State};
-use crate::io::PeduncleChoice;
+use crate::fruit::PeduncleChoice;
 
 /// Shows the question that there is, if any.
 pub(in crate::ui) fn show(ctx: &egui::Context, state: &State, commands: &mut Vec<Command>) {

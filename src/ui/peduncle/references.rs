@@ -2,13 +2,14 @@
 
 use egui::{Color32, Grid, Label, ProgressBar, Ui};
 
-use super::super::controls::{caution, hint};
-use super::super::status::stage_name;
 use crate::app::peduncle::Errors;
 use crate::app::{Command, PeduncleCommand, State};
-use crate::evaluate::{peduncle_disagreement_deg, sentence};
+use crate::evaluate::peduncle_disagreement_deg;
 use crate::method::AxisSource;
-use crate::reference::axis_error_rad;
+use crate::method::axis_error_rad;
+use crate::text::sentence;
+use crate::ui::widgets::controls::{caution, hint};
+use crate::ui::window::status::stage_name;
 use crate::view::{Overlay, reference_color};
 
 /// From this many degrees on a reference is not to be trusted blindly: about twice the published errors.
@@ -17,7 +18,7 @@ const FAR_APART_DEG: f64 = 15.0;
 /// Shows both references with the axis' error against each.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     // What either says is computed.
-    if state.annotating.is_blind {
+    if state.true_axes.is_blind {
         return;
     }
     let Some(walked) = &state.walked else { return };
@@ -105,7 +106,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 /// Shows the errors with and without the peduncle.
 pub(in crate::ui) fn beside(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     // What either says is computed.
-    if state.annotating.is_blind {
+    if state.true_axes.is_blind {
         return;
     }
     let picking = &state.peduncle;

@@ -3,9 +3,9 @@
 use egui::{Color32, CursorIcon, PointerButton, Pos2, Rect, Shape, Stroke, vec2};
 use glam::DVec2;
 
-use super::super::view3d::ORBIT_RAD_PER_PX;
 use crate::app::{Command, PeduncleCommand, State, Tool};
 use crate::render::Viewport;
+use crate::ui::inspector::view3d::ORBIT_RAD_PER_PX;
 
 /// What a drag in the view does while one of the tools is in hand.
 pub(in crate::ui) fn drag(
@@ -174,7 +174,7 @@ pub(in crate::ui) fn paint(ui: &egui::Ui, response: &egui::Response, rect: Rect,
 }
 
 /// What is said under the bar while a tool is in hand; `None` where none is.
-pub(super) fn hint(state: &State) -> Option<&'static str> {
+pub(in crate::ui) fn hint(state: &State) -> Option<&'static str> {
     match state.tool {
         Tool::Lasso => Some(
             "Drag around the peduncle to add its points, with Shift to take some away. Right drag turns the view, \

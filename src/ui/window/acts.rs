@@ -3,18 +3,19 @@
 use egui::ViewportCommand;
 
 use super::Window;
-use crate::app::folder::evaluate_command_line;
-use crate::app::{Command, PeduncleCommand, command_line, quoted};
-use crate::io::companion_path;
-use crate::ui::actions::{Act, Action, Group, WindowAct};
-use crate::ui::dialogs;
-use crate::ui::palette::Palette;
-use crate::ui::save_image::SaveImage;
-use crate::ui::scrub::walks_by_rank;
+use crate::app::command_line;
+use crate::app::many::evaluate_command_line;
+use crate::app::{Command, PeduncleCommand, quoted};
+use crate::fruit::companion_path;
+use crate::ui::action::{Act, Action, Group, WindowAct};
+use crate::ui::inspector::plane_bar::walks_by_rank;
+use crate::ui::window::dialogs;
+use crate::ui::window::palette::Palette;
+use crate::ui::window::save_image::SaveImage;
 
 impl Window {
-    pub(super) fn keys(&self, ctx: &egui::Context, all: &[Action], acts: &mut Vec<Act>) {
-        let is_asking = self.app.state().annotating.asks_name || self.is_closing;
+    pub(in crate::ui) fn keys(&self, ctx: &egui::Context, all: &[Action], acts: &mut Vec<Act>) {
+        let is_asking = self.app.state().true_axes.asks_name || self.is_closing;
         let is_covered = self.is_help_open || self.is_about_open || self.saving.is_some() || is_asking;
         if is_covered || self.palette.is_some() || ctx.text_edit_focused() {
             return;
@@ -69,7 +70,7 @@ impl Window {
     }
 
     /// Hands a command to the program, but for what only the window can do.
-    pub(super) fn carry_out(&mut self, ctx: &egui::Context, command: Command) {
+    pub(in crate::ui) fn carry_out(&mut self, ctx: &egui::Context, command: Command) {
         if let Command::Peduncle(PeduncleCommand::Ask(wanted)) = command {
             let path = self.app.state().source().map(|s| companion_path(s.path()));
             let name = path.and_then(|p| p.file_name().map(|n| n.to_string_lossy().into_owned()));
@@ -80,7 +81,7 @@ impl Window {
         }
     }
 
-    pub(super) fn act(&mut self, ctx: &egui::Context, act: WindowAct) {
+    pub(in crate::ui) fn act(&mut self, ctx: &egui::Context, act: WindowAct) {
         let answers = self.answers.0.clone();
         match act {
             WindowAct::OpenFiles => dialogs::open_files(ctx, &answers),

@@ -1,6 +1,18 @@
 //! The window: panels around the view, keys, dialogs, and what is kept for the next time.
 
+mod about;
+pub(super) mod actions;
 mod acts;
+mod dialogs;
+mod help;
+pub(super) mod layout;
+mod menu;
+pub(super) mod open;
+mod palette;
+mod panes;
+mod save_image;
+pub(super) mod status;
+pub(super) mod theme;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -10,19 +22,21 @@ use std::time::{Duration, Instant};
 use egui::{CentralPanel, Frame, Panel, ViewportCommand};
 use egui_tiles::Tree;
 
-use super::actions::{Act, WindowAct, actions};
-use super::annotating;
-use super::dialogs::Asked;
-use super::layout::{Pane, first_layout, is_wide, layout_from};
-use super::paint::Views;
-use super::palette::{Answer, Palette};
-use super::panes::Panes;
-use super::save_image::{self, SaveImage};
-use super::{help, menu, peduncle, status, theme};
-use crate::app::folder::FolderCommand;
-use crate::app::worker::Repaint;
+use super::peduncle;
+use crate::app::many::ManyCommand;
+use crate::app::workers::Repaint;
 use crate::app::{App, Command, PeduncleCommand, Session};
-use crate::io::companion_path;
+use crate::fruit::companion_path;
+use crate::ui::action::{Act, WindowAct};
+use crate::ui::inspector::paint::Views;
+use crate::ui::pane::Pane;
+use crate::ui::true_axes;
+use crate::ui::window::actions::actions;
+use crate::ui::window::dialogs::Asked;
+use crate::ui::window::layout::{first_layout, is_wide, layout_from};
+use crate::ui::window::palette::{Answer, Palette};
+use crate::ui::window::panes::Panes;
+use save_image::SaveImage;
 
 /// How the window begins.
 pub struct Start {
@@ -89,7 +103,7 @@ impl Window {
         };
         let layout = start.session.layout.as_deref().and_then(layout_from);
         let (open, current) = (start.session.open.clone(), start.session.current);
-        let folders = start.session.folder.folders().to_vec();
+        let folders = start.session.many.folders().to_vec();
         let plane = start.session.settings.plane;
         let mut app = App::new(start.session, &repaint)?;
         if let Some(problem) = start.problem {
@@ -181,7 +195,7 @@ impl Window {
             self.is_help_open = help::show(&ctx, &all);
         }
         if self.is_about_open {
-            self.is_about_open = super::about::show(&ctx);
+            self.is_about_open = crate::ui::window::about::show(&ctx);
         }
         if let Some(palette) = &mut self.palette {
             match palette.show(&ctx, &all) {
@@ -208,9 +222,9 @@ impl Window {
                 .set_view(viewport, ctx.pixels_per_point(), self.is_software);
         }
         peduncle::question(&ctx, self.app.state(), &mut commands);
-        annotating::ask_name(&ctx, self.app.state(), &mut commands);
+        true_axes::ask_name(&ctx, self.app.state(), &mut commands);
         self.close(&ctx, &mut commands);
-        let was_editing = self.app.state().annotating.is_editing;
+        let was_editing = self.app.state().true_axes.is_editing;
         for command in commands {
             self.carry_out(&ctx, command);
         }
@@ -220,8 +234,8 @@ impl Window {
                 Act::Window(act) => self.act(&ctx, act),
             }
         }
-        if self.app.state().annotating.is_editing && !was_editing {
-            self.act(&ctx, WindowAct::Show(Pane::TrueAxis));
+        if self.app.state().true_axes.is_editing && !was_editing {
+            self.act(&ctx, WindowAct::Show(Pane::TrueAxes));
         }
     }
 
@@ -242,14 +256,14 @@ impl Window {
         if self.may_close || (!is_asked && !self.is_closing) {
             return;
         }
-        match annotating::Farewell::of(ctx, self.app.state(), commands) {
-            annotating::Farewell::Close if is_asked => {}
-            annotating::Farewell::Close => {
+        match true_axes::Farewell::of(ctx, self.app.state(), commands) {
+            true_axes::Farewell::Close if is_asked => {}
+            true_axes::Farewell::Close => {
                 self.may_close = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
-            annotating::Farewell::Stay => self.is_closing = false,
-            annotating::Farewell::Wait => {
+            true_axes::Farewell::Stay => self.is_closing = false,
+            true_axes::Farewell::Wait => {
                 self.is_closing = true;
                 ctx.send_viewport_cmd(ViewportCommand::CancelClose);
                 ctx.request_repaint_after(Duration::from_millis(50));
@@ -279,7 +293,7 @@ impl Window {
                 Asked::Open(paths) => Command::Open(paths),
                 Asked::SaveImage(path, size_px) => Command::SaveImage { path, size_px },
                 Asked::Peduncle(command) => Command::Peduncle(command),
-                Asked::SaveResults(into) => Command::Folder(FolderCommand::SaveResults(into)),
+                Asked::SaveResults(into) => Command::Many(ManyCommand::SaveResults(into)),
                 Asked::Failed(text) => Command::Say { is_error: true, text },
             }));
         }

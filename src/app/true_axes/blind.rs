@@ -1,0 +1,73 @@
+//! Blind mode: nothing computed is shown, so that it cannot draw the annotator's hand.
+
+use crate::app::State;
+use crate::app::state::Command;
+use crate::view::Style;
+use crate::view::{Coloring, Overlay, ViewPreset};
+
+/// Overlays that show, or give away, what was computed.
+const COMPUTED: [Overlay; 9] = [
+    Overlay::Plane,
+    Overlay::Normal,
+    Overlay::Center,
+    Overlay::Axis,
+    Overlay::Reference,
+    Overlay::References,
+    Overlay::Ghost,
+    Overlay::Partners,
+    Overlay::Caption,
+];
+
+impl State {
+    /// How the cloud is drawn: as chosen, but for what blind mode hides.
+    pub fn shown_style(&self) -> Style {
+        let mut style = self.style.clone();
+        if self.true_axes.is_blind {
+            for overlay in COMPUTED {
+                style.overlays.set(overlay, false);
+            }
+            if style.coloring.needs_plane() {
+                let has_colors = self.shown().is_some_and(|shown| shown.colors.is_some());
+                style.coloring = if has_colors {
+                    Coloring::Rgb
+                } else {
+                    Coloring::Normal
+                };
+            }
+        }
+        style
+    }
+
+    /// The warnings that are shown: in blind mode those of the file alone.
+    pub fn shown_warnings(&self) -> &[String] {
+        match (&self.walked, self.true_axes.is_blind) {
+            (Some(walked), true) => &walked.fruit.warnings,
+            (None, true) => &[],
+            (_, false) => &self.warnings,
+        }
+    }
+}
+
+impl Command {
+    /// Whether it shows what was computed, or is about that alone.
+    pub fn reveals(&self) -> bool {
+        use crate::app::TrueAxesCommand::{ShowAll, Start};
+        matches!(
+            self,
+            Self::LookAt(_)
+                | Self::Step(_)
+                | Self::StepRank(_)
+                | Self::Preview(Some(_))
+                | Self::Play(true)
+                | Self::MoveCenter(_)
+                | Self::Use(crate::app::Tool::MoveCenter)
+                | Self::View(ViewPreset::Normal | ViewPreset::Axis)
+                | Self::TrueAxes(Start(_) | ShowAll(true))
+        )
+    }
+}
+
+/// Whether an overlay shows what was computed.
+pub fn overlay_reveals(overlay: Overlay) -> bool {
+    COMPUTED.contains(&overlay)
+}

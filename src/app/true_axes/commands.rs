@@ -1,0 +1,105 @@
+//! What can be asked about axes set by hand.
+
+use glam::{DVec2, DVec3};
+
+use super::{EditView, Ghost, Handle};
+use crate::annotate::{Confidence, Ends, Method, Pivot, Role};
+use crate::method::AxisSource;
+
+/// How an axis is turned, as seen in the large view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turn {
+    /// Within the picture, clockwise.
+    Picture,
+    /// The peduncle's base away from the viewer.
+    Lean,
+}
+
+/// Which axis is the adjudicated one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Decision {
+    /// The mean of the annotators' axes.
+    Mean,
+    /// An annotator's.
+    Of(String),
+    /// One that is set by hand.
+    ByHand,
+}
+
+/// Something that is asked about axes set by hand.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TrueAxesCommand {
+    /// Enter edit mode, or leave it.
+    Edit(bool),
+    /// The annotator's name; edit mode follows where it waits for one.
+    Name(String),
+    /// No name, and no edit mode.
+    WithoutName,
+    /// The role in which axes are set.
+    Role(Role),
+    /// Hide everything computed, or show it.
+    Blind(bool),
+    /// Draw everybody's axes, or only one's own.
+    ShowAll(bool),
+
+    /// Where a click would land.
+    Hover(Option<DVec3>),
+    /// Set the next end.
+    Place(DVec3),
+    /// Set both ends anew.
+    Anew,
+    /// Out of whatever is half done, or else of edit mode.
+    Escape,
+    /// Take hold of a handle.
+    Grab {
+        /// Which.
+        handle: Handle,
+        /// In which view.
+        view: EditView,
+        /// Where the cursor is, in the view's pixels.
+        at_px: DVec2,
+    },
+    /// Move what is held.
+    Drag(DVec3),
+    /// Let go: the axis counts where it is.
+    Drop,
+    /// The axis as a number is dragged.
+    Preview(Ends),
+    /// The axis by its ends.
+    SetEnds(Ends),
+    /// Turn the axis.
+    Nudge(Turn, f64),
+    /// The step of the buttons that turn, as an index.
+    Step(usize),
+    /// What stays where it is when the axis is turned.
+    Hold(Pivot),
+    /// Exchange the ends.
+    Flip,
+    /// Start from an axis that is known.
+    Start(Method),
+    /// What checks the axis.
+    Ghost(Ghost),
+    /// How sure the annotator is.
+    Confidence(Option<Confidence>),
+    /// Anything else, in words.
+    Note(String),
+    /// The cloud does not show its axis.
+    CannotTell,
+    /// Take back the last edit of the axis.
+    Undo,
+    /// Take back the last undo.
+    Redo,
+    /// Write what could not be written.
+    TryAgain,
+
+    /// The next cloud without an axis of this annotator's.
+    NextWithout,
+    /// Compare the annotators over all open clouds.
+    CompareSet,
+    /// Stop doing so.
+    CancelSet,
+    /// Set the adjudicated axis.
+    Decide(Decision),
+    /// Measure errors against the reference of that source.
+    CompareWith(AxisSource),
+}

@@ -1,0 +1,171 @@
+//! The rows as CSV and as Parquet, with the same columns.
+
+use std::sync::Arc;
+
+use parquet::basic::{ConvertedType, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::Type;
+
+use crate::evaluate::Row;
+
+/// The reason why a table could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    /// The CSV writer failed.
+    #[error("the CSV could not be written: {0}")]
+    Csv(String),
+    /// The Parquet writer failed.
+    #[error("the Parquet file could not be written")]
+    Parquet(#[from] ParquetError),
+}
+
+/// The value of a cell; `None` is an empty field in CSV and a null in Parquet.
+enum Value {
+    Text(Option<String>),
+    Count(Option<u64>),
+    Number(Option<f64>),
+}
+
+/// The name of a column, and its value in a row.
+type Column = (&'static str, fn(&Row) -> Value);
+
+macro_rules! components {
+    ($field:ident, $index:literal) => {
+        |row| Value::Number(row.$field.map(|v| v[$index]))
+    };
+}
+
+/// All columns in order.
+const COLUMNS: [Column; 34] = [
+    ("file", |row| Value::Text(Some(row.file.clone()))),
+    ("sha256", |row| Value::Text(row.sha256.clone())),
+    ("points", |row| Value::Count(row.points)),
+    ("used_points", |row| Value::Count(row.used_points)),
+    ("unit", |row| Value::Text(row.unit.map(|u| u.symbol().into()))),
+    ("center_x", components!(center, 0)),
+    ("center_y", components!(center, 1)),
+    ("center_z", components!(center, 2)),
+    ("g", |row| Value::Count(row.best.map(|b| b[0]))),
+    ("h", |row| Value::Count(row.best.map(|b| b[1]))),
+    ("score_cm", |row| Value::Number(row.score_cm)),
+    ("runner_up_score_cm", |row| Value::Number(row.runner_up_score_cm)),
+    ("lead", |row| Value::Number(row.lead)),
+    ("partner_fraction", |row| Value::Number(row.partner_fraction)),
+    ("axis_x", components!(axis, 0)),
+    ("axis_y", components!(axis, 1)),
+    ("axis_z", components!(axis, 2)),
+    ("truth", |row| Value::Text(row.truth.clone())),
+    ("truth_x", components!(truth_axis, 0)),
+    ("truth_y", components!(truth_axis, 1)),
+    ("truth_z", components!(truth_axis, 2)),
+    ("error_deg", |row| Value::Number(row.error_deg)),
+    ("peduncle_error_deg", |row| Value::Number(row.peduncle_error_deg)),
+    ("peduncle_direction_error_deg", |row| {
+        Value::Number(row.peduncle_direction_error_deg)
+    }),
+    ("peduncle_disagreement_deg", |row| {
+        Value::Number(row.peduncle_disagreement_deg)
+    }),
+    ("true_axis_error_deg", |row| {
+        Value::Number(row.true_axis_error_deg)
+    }),
+    ("measured", |row| {
+        Value::Count(Some(u64::from(row.error_deg.is_some())))
+    }),
+    ("failed", |row| {
+        Value::Count(Some(u64::from(row.failure.is_some())))
+    }),
+    ("warnings", |row| Value::Text(Some(row.warnings.clone()))),
+    ("failure", |row| Value::Text(row.failure.clone())),
+    ("manual_error_deg", |row| Value::Number(row.manual_error_deg)),
+    ("annotators", |row| Value::Text(Some(row.annotators.clone()))),
+    ("tags", |row| Value::Text(Some(row.tags.clone()))),
+    ("note", |row| Value::Text(Some(row.note.clone()))),
+];
+
+/// Writes the rows as CSV with a header.
+///
+/// # Errors
+/// Returns an error if the writer fails.
+pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    let write = |table: &mut csv::Writer<Vec<u8>>, fields: Vec<String>| {
+        table
+            .write_record(fields)
+            .map_err(|e| TableError::Csv(e.to_string()))
+    };
+    write(
+        &mut table,
+        COLUMNS.iter().map(|(name, _)| (*name).into()).collect(),
+    )?;
+    for row in rows {
+        let field = |(_, value): &Column| match value(row) {
+            Value::Text(text) => text.unwrap_or_default(),
+            Value::Count(count) => count.map(|c| c.to_string()).unwrap_or_default(),
+            Value::Number(number) => number.map(|n| n.to_string()).unwrap_or_default(),
+        };
+        write(&mut table, COLUMNS.iter().map(field).collect())?;
+    }
+    table.into_inner().map_err(|e| TableError::Csv(e.to_string()))
+}
+
+/// Writes the rows as a Parquet file of one row group, with nulls for missing values.
+///
+/// # Errors
+/// Returns an error if the writer fails.
+pub fn parquet(rows: &[Row]) -> Result<Vec<u8>, TableError> {
+    let sample = Row::failed("", String::new());
+    let field = |(name, value): &Column| {
+        let (physical, converted) = match value(&sample) {
+            Value::Text(_) => (Physical::BYTE_ARRAY, ConvertedType::UTF8),
+            Value::Count(_) => (Physical::INT64, ConvertedType::NONE),
+            Value::Number(_) => (Physical::DOUBLE, ConvertedType::NONE),
+        };
+        let built = Type::primitive_type_builder(name, physical)
+            .with_repetition(Repetition::OPTIONAL)
+            .with_converted_type(converted)
+            .build();
+        built.map(Arc::new)
+    };
+    let fields = COLUMNS.iter().map(field).collect::<Result<_, _>>()?;
+    let schema = Type::group_type_builder("clouds").with_fields(fields).build()?;
+    let properties = WriterProperties::builder()
+        .set_created_by(concat!("axiscope ", env!("CARGO_PKG_VERSION")).into())
+        .build();
+    let mut bytes = Vec::new();
+    let mut file = SerializedFileWriter::new(&mut bytes, Arc::new(schema), Arc::new(properties))?;
+    let mut group = file.next_row_group()?;
+    for (_, value) in COLUMNS {
+        let Some(mut column) = group.next_column()? else {
+            break;
+        };
+        let (mut texts, mut counts, mut numbers, mut present) = (vec![], vec![], vec![], vec![]);
+        for row in rows {
+            let some = match value(row) {
+                Value::Text(text) => text.map(|t| texts.push(ByteArray::from(t.into_bytes()))),
+                // Counts are far below 2^63.
+                Value::Count(count) => count.map(|c| counts.push(c.cast_signed())),
+                Value::Number(number) => number.map(|n| numbers.push(n)),
+            };
+            present.push(i16::from(some.is_some()));
+        }
+        match value(&sample) {
+            Value::Text(_) => column
+                .typed::<ByteArrayType>()
+                .write_batch(&texts, Some(&present), None)?,
+            Value::Count(_) => column
+                .typed::<Int64Type>()
+                .write_batch(&counts, Some(&present), None)?,
+            Value::Number(_) => column
+                .typed::<DoubleType>()
+                .write_batch(&numbers, Some(&present), None)?,
+        };
+        column.close()?;
+    }
+    group.close()?;
+    file.close()?;
+    Ok(bytes)
+}

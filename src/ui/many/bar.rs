@@ -1,0 +1,170 @@
+//! The line above every panel of clouds: evaluation, its progress, the reference, and the results.
+
+use std::time::Duration;
+
+use egui::{Button, ProgressBar, Ui, vec2};
+
+use super::FolderAnswer;
+use crate::app::many::{EvaluationProgress, ManyCommand};
+use crate::app::{Command, State, TruthChoice};
+use crate::ui::widgets::controls::{Choice, choose};
+
+/// Shows the line.
+pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
+    let mut say = |command| commands.push(Command::Many(command));
+    ui.horizontal_wrapped(|ui| {
+        evaluation(ui, state, &mut say);
+        ui.add_space(8.0);
+        ui.label("Error against");
+        ui.allocate_ui(vec2(150.0, ui.spacing().interact_size.y), |ui| {
+            if let Some(choice) = against(ui, state.many.against) {
+                say(ManyCommand::Against(choice));
+            }
+        });
+        results(ui, state)
+    })
+    .inner
+}
+
+/// Shows the menu of results.
+fn results(ui: &mut Ui, state: &State) -> Option<FolderAnswer> {
+    let mut answer = None;
+    let folder = &state.many;
+    let has_files = folder.rows.iter().any(|row| row.path.is_some());
+    let menu = ui.menu_button("Results", |ui| {
+        let save = Button::new("Save results …");
+        let save = ui
+            .add_enabled(has_files && folder.missing == 0, save)
+            .on_hover_text("Tables (CSV and Parquet), a summary, figures and a page with pictures of the worst, as “axiscope evaluate” writes them")
+            .on_disabled_hover_text("Once all clouds are evaluated");
+        if save.clicked() {
+            answer = Some(FolderAnswer::SaveResults);
+            ui.close();
+        }
+        let copy = ui.add_enabled(has_files, Button::new("Copy the command line"));
+        if copy
+            .on_hover_text("The “axiscope evaluate” that does the same without a window")
+            .clicked()
+        {
+            answer = Some(FolderAnswer::CopyCommandLine);
+            ui.close();
+        }
+    });
+    menu.response
+        .on_hover_text("Save what came out, or do the same without a window");
+    answer
+}
+
+fn evaluation(ui: &mut Ui, state: &State, say: &mut impl FnMut(ManyCommand)) {
+    let folder = &state.many;
+    let count = folder.rows.len();
+    if let Some(progress) = folder.progress {
+        let button = ui
+            .button("Cancel")
+            .on_hover_text("Stop evaluating. What is done stays.");
+        if button.clicked() {
+            say(ManyCommand::Cancel);
+        }
+        progress_bar(ui, progress);
+        return;
+    }
+    let missing = folder.missing;
+    let has_stale = folder.rows.iter().any(|row| row.is_stale);
+    if missing > 0 {
+        let text = match missing {
+            1 => "Evaluate 1 cloud".to_owned(),
+            _ if missing == count => format!("Evaluate all {count} clouds"),
+            _ => format!("Evaluate {missing} of {count} clouds"),
+        };
+        let button = ui.add(Button::new(text)).on_hover_text(
+            "Analyze them in the background with the parameters in force (Ctrl+E). What was worked out \
+             before is taken over at once.",
+        );
+        if button.clicked() {
+            say(ManyCommand::Evaluate);
+        }
+        if has_stale {
+            ui.label("Rows in italics are of other parameters.");
+        }
+    } else {
+        ui.label(match count {
+            0 => "No cloud is open.".into(),
+            1 => "1 cloud, evaluated".into(),
+            _ => format!("{count} clouds, evaluated"),
+        });
+    }
+}
+
+/// Shows the progress of work on all clouds.
+pub(in crate::ui) fn progress_bar(ui: &mut Ui, progress: EvaluationProgress) {
+    let left = progress.left.map(|left| format!(", {}", in_words(left)));
+    let text = format!(
+        "{} of {} clouds{}",
+        progress.done,
+        progress.total,
+        left.unwrap_or_default()
+    );
+    let share = progress.done as f32 / progress.total.max(1) as f32;
+    ui.add(ProgressBar::new(share).desired_width(260.0).text(text));
+}
+
+/// Describes a remaining time in words.
+fn in_words(left: Duration) -> String {
+    let seconds = left.as_secs_f64();
+    if seconds < 10.0 {
+        "a few seconds left".into()
+    } else if seconds < 90.0 {
+        format!("about {:.0} s left", 10.0 * (seconds / 10.0).round())
+    } else if seconds < 5400.0 {
+        format!("about {:.0} min left", (seconds / 60.0).round())
+    } else {
+        format!("about {:.0} h left", (seconds / 3600.0).round())
+    }
+}
+
+fn against(ui: &mut Ui, chosen: TruthChoice) -> Option<TruthChoice> {
+    let choices = vec![
+        Choice::new(
+            TruthChoice::Auto,
+            "the best known",
+            "The simulator's axis where there is one, else the one set by hand, else the peduncle's",
+        ),
+        Choice::new(
+            TruthChoice::Peduncle,
+            "the peduncle",
+            "The axis from the fruit center through the peduncle (§ 3.2)",
+        ),
+        Choice::new(
+            TruthChoice::PeduncleDirection,
+            "the peduncle's direction",
+            "The direction in which the peduncle itself runs",
+        ),
+        Choice::new(
+            TruthChoice::Truth,
+            "the simulation",
+            "The axis in NAME.truth.json",
+        ),
+        Choice::new(
+            TruthChoice::Manual,
+            "set by hand",
+            "The adjudicated axis, else the mean of the annotators'",
+        ),
+    ];
+    let tip = "What errors are measured against in charts, gallery and filter";
+    choose(ui, "Error against", &chosen, tip, choices)
+}
+
+/// Explains why a panel is empty.
+pub(in crate::ui) fn nothing_yet(ui: &mut Ui, state: &State) {
+    ui.add_space(24.0);
+    ui.vertical_centered(|ui| {
+        let text = if state.many.rows.is_empty() {
+            "No cloud is open. Drop a folder of PLY files on the window."
+        } else if state.many.progress.is_some() {
+            "The first clouds are being evaluated."
+        } else {
+            "No cloud has an error against this reference yet. Evaluate the clouds, or choose another reference."
+        };
+        ui.label(text);
+    });
+}

@@ -1,0 +1,9 @@
+//! What panels are made of.
+
+pub(super) mod color_scale;
+pub(super) mod controls;
+pub(super) mod marks;
+pub(super) mod memo;
+pub(super) mod notice;
+pub(super) mod plane_tip;
+pub(super) mod rows;

@@ -1,0 +1,96 @@
+//! The command palette: every action by its name.
+
+use egui::{Key, Modal, Modifiers, RichText};
+
+use crate::ui::action::{Act, Action};
+
+/// What the palette remembers while it is open.
+#[derive(Debug, Clone, Default)]
+pub struct Palette {
+    text: String,
+    chosen: usize,
+}
+
+/// What came of a frame of it.
+pub enum Answer {
+    /// It stays open.
+    Open,
+    /// It was closed.
+    Closed,
+    /// Something was chosen.
+    Chosen(Act),
+}
+
+impl Palette {
+    /// Shows the palette.
+    pub fn show(&mut self, ctx: &egui::Context, actions: &[Action]) -> Answer {
+        let found: Vec<&Action> = actions.iter().filter(|a| self.matches(a)).collect();
+        self.chosen = self.chosen.min(found.len().saturating_sub(1));
+        // Before the field gets them.
+        let (up, down, enter) = ctx.input_mut(|i| {
+            (
+                i.consume_key(Modifiers::NONE, Key::ArrowUp),
+                i.consume_key(Modifiers::NONE, Key::ArrowDown),
+                i.consume_key(Modifiers::NONE, Key::Enter),
+            )
+        });
+        if down {
+            self.chosen = (self.chosen + 1).min(found.len().saturating_sub(1));
+        }
+        if up {
+            self.chosen = self.chosen.saturating_sub(1);
+        }
+        let mut picked = enter.then(|| found.get(self.chosen)).flatten().copied();
+        let modal = Modal::new(egui::Id::unique("palette")).show(ctx, |ui| {
+            ui.set_width(420.0_f32.min(ctx.content_rect().width() - 60.0));
+            let label = ui.label("Find a command");
+            let field = egui::TextEdit::singleline(&mut self.text)
+                .hint_text("Type a part of its name")
+                .desired_width(f32::INFINITY);
+            let response = ui.add(field).labelled_by(label.id);
+            response.request_focus();
+            if response.changed() {
+                self.chosen = 0;
+            }
+            ui.add_space(4.0);
+            let height = (ctx.content_rect().height() - 200.0).clamp(80.0, 340.0);
+            egui::ScrollArea::vertical()
+                .max_height(height)
+                .auto_shrink([false, false])
+                .show(ui, |ui| {
+                    if found.is_empty() {
+                        ui.label("No command is called so.");
+                    }
+                    for (i, action) in found.iter().enumerate() {
+                        let is_chosen = i == self.chosen;
+                        let keys = action.keys_text(ctx);
+                        let text = format!("{}: {}", action.group.title(), action.title);
+                        let button = egui::Button::selectable(is_chosen, text)
+                            .shortcut_text(RichText::new(keys).weak())
+                            .min_size(egui::vec2(ui.available_width(), 0.0));
+                        let response = ui.add_enabled(action.is_enabled, button);
+                        if is_chosen && (up || down) {
+                            response.scroll_to_me(None);
+                        }
+                        if response.clicked() {
+                            picked = Some(action);
+                        }
+                    }
+                });
+        });
+        match picked {
+            Some(action) if action.is_enabled => Answer::Chosen(action.act.clone()),
+            _ if modal.should_close() => Answer::Closed,
+            _ => Answer::Open,
+        }
+    }
+
+    /// Every word of the text is somewhere in the action's name.
+    fn matches(&self, action: &Action) -> bool {
+        let name = format!("{} {}", action.group.title(), action.title).to_lowercase();
+        self.text
+            .to_lowercase()
+            .split_whitespace()
+            .all(|word| name.contains(word))
+    }
+}

@@ -1,0 +1,11 @@
+//! The program behind the window, without one.
+
+#[path = "../helpers/mod.rs"]
+mod helpers;
+
+mod inspector;
+mod many;
+mod many_tags;
+mod peduncle;
+mod true_axes;
+mod why;

@@ -1,0 +1,11 @@
+//! What several tests need.
+#![allow(dead_code, reason = "each target uses some of it")]
+
+pub mod bodies;
+pub mod command_line;
+pub mod disk;
+pub mod driving;
+#[cfg(feature = "snapshots")]
+pub mod in_window;
+pub mod peppers;
+pub mod ply_text;

@@ -1,0 +1,13 @@
+//! The program as a user runs it, and the charts that it writes.
+
+#[path = "../helpers/mod.rs"]
+mod helpers;
+
+mod agreeing;
+mod annotating_killed;
+mod command_line;
+mod command_line_other;
+mod evaluating;
+mod evaluating_peduncle;
+mod exchanging;
+mod figures;

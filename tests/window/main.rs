@@ -1,0 +1,14 @@
+//! The window, its panels and the pictures that a GPU draws.
+
+#[path = "../helpers/mod.rs"]
+mod helpers;
+
+mod inspector;
+mod keys;
+mod many;
+mod panels_planes;
+mod panels_settings;
+mod peduncle;
+mod real_window;
+mod rendering;
+mod true_axes;
