@@ -2,8 +2,6 @@
 
 pub(super) mod command_line;
 pub(super) mod details;
-#[cfg(feature = "window")]
-pub(super) mod drawing;
 pub(super) mod image;
 pub mod look;
 pub(super) mod navigate;
@@ -11,4 +9,3 @@ pub mod planes;
 pub(super) mod stages;
 mod update;
 pub mod why;
-pub(super) mod written;

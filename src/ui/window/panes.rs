@@ -3,7 +3,7 @@
 use egui::{Frame, Margin, Panel, ScrollArea, WidgetText};
 use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse};
 
-use crate::app::{AnnotateCommand, Command, PeduncleCommand, State};
+use crate::app::{Command, PeduncleCommand, State, TrueAxesCommand};
 use crate::render::Viewport;
 use crate::ui::action::{Act, Action, WindowAct};
 use crate::ui::inspector::{plane_bar, view_bar, view3d};
@@ -76,7 +76,7 @@ impl Panes<'_> {
             view_bar::show(ui, self.state, self.actions, self.acts);
             peduncle::bar(ui, self.state, self.actions, self.acts);
         });
-        if !self.state.annotating.is_blind {
+        if !self.state.true_axes.is_blind {
             Panel::bottom("plane bar")
                 .show_separator_line(false)
                 .show(ui, |ui| {
@@ -87,9 +87,9 @@ impl Panes<'_> {
         let is_in_locked = true_axes::locked_views(ui, self.state, self.is_gpu, self.commands);
         let answer = view3d::show(ui, self.state, self.is_gpu, self.commands);
         *self.viewport = Some(answer.viewport);
-        if self.state.annotating.landing.is_some() && !is_in_locked && !answer.is_hovered {
-            let gone = AnnotateCommand::Hover(None);
-            self.commands.push(Command::Annotate(gone));
+        if self.state.true_axes.landing.is_some() && !is_in_locked && !answer.is_hovered {
+            let gone = TrueAxesCommand::Hover(None);
+            self.commands.push(Command::TrueAxes(gone));
         }
     }
 
@@ -99,7 +99,7 @@ impl Panes<'_> {
             pane,
             Pane::View | Pane::Clouds | Pane::Parameters | Pane::TrueAxes
         );
-        if state.annotating.is_blind && !is_free {
+        if state.true_axes.is_blind && !is_free {
             notice::hidden(ui);
             return;
         }
