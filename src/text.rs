@@ -1,4 +1,4 @@
-//! Sentences of messages.
+//! Sentences of messages, and texts that fit.
 
 /// An error's text as a sentence of its own.
 pub fn sentence(text: &str) -> String {
@@ -8,4 +8,19 @@ pub fn sentence(text: &str) -> String {
         .map(|c| c.to_uppercase().collect())
         .unwrap_or_default();
     format!("{first}{}.", letters.as_str())
+}
+
+/// The text if it fits, or else its longest beginning that fits with an ellipsis; `None` if not even that fits.
+pub(crate) fn shortened(text: &str, fits: impl Fn(&str) -> bool) -> Option<String> {
+    if fits(text) {
+        return Some(text.to_owned());
+    }
+    let mut kept = text.to_owned();
+    while kept.pop().is_some() {
+        let candidate = format!("{}…", kept.trim_end());
+        if fits(&candidate) {
+            return Some(candidate);
+        }
+    }
+    None
 }
