@@ -6,6 +6,7 @@ mod listing;
 mod picked;
 mod read;
 mod request;
+mod request_options;
 pub mod unit_guess;
 
 pub use cloud_file::{
