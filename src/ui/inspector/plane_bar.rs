@@ -1,4 +1,4 @@
-//! The bar that walks through the candidate planes.
+//! The bar that steps through the candidate planes.
 
 use egui::{
     DragValue, Id, Painter, Pos2, Rect, Response, Role, Sense, Shape, Slider, Stroke, Ui, WidgetInfo, vec2,
@@ -101,10 +101,10 @@ fn slider(
     let before = place.map_or(1, |place| place + 1);
     let mut number = before;
 
-    // What is left of the line, without the typed value and the box after it.
+    // The rest of the line, without the typed value and the box after it.
     let beside = 300.0;
     let rest = ui.available_size_before_wrap().x - ui.spacing().item_spacing.x;
-    // Where that is hardly anything, these go to the next line.
+    // If that is hardly anything, these go to the next line.
     let width = if rest - beside < 120.0 {
         rest
     } else {
@@ -149,7 +149,7 @@ fn slider(
     }
 }
 
-/// What was typed: a plane's number, or its g and h; in a whole text, as it is shown, the number counts.
+/// Parses a plane's number, or its g and h. Of the whole text as it is shown, the number counts.
 fn parse(typed: &str, place_of: impl Fn(usize, usize) -> Option<usize>) -> Option<f64> {
     let numbers: Vec<usize> = typed
         .split(|letter: char| !letter.is_ascii_digit())
