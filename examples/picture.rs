@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .unwrap_or_else(|| std::env::temp_dir().join("axiscope_example.png"));
 
     let request = Request::default();
-    let fruit = Fruit::read(&path, request.unit, &request.peduncle)?;
+    let fruit = Fruit::read(&path, &request)?;
     let examined = examine(fruit, &request, &())?;
 
     let drawing = Drawing {

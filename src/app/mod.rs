@@ -26,6 +26,7 @@ use std::time::Duration;
 
 use glam::DVec2;
 
+use crate::evaluate::Tagged;
 use crate::geometry::Extent;
 use crate::method::{AxisEstimate, PlaneDetail};
 use crate::parallel::Cancelled;
@@ -37,10 +38,10 @@ use crate::view::{ShownPoints, Style};
 use inspector::details::Details;
 use inspector::look::Look;
 use inspector::stages::{Stages, WalkError};
-use many::{Many, ManyState, Tagged};
+use many::{Many, ManyState};
 use workers::{Lane, Pool, Repaint};
 
-pub use inspector::command_line::{analysis_options, command_line, quoted};
+pub use inspector::command_line::{command_line, quoted};
 pub use inspector::image::page;
 pub use inspector::navigate::{default_camera, dragged};
 pub use inspector::stages::{Source, Walked};

@@ -9,7 +9,7 @@ use axiscope::annotate::exchange::{ImportedRow, read_table, write_table};
 use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement};
 use axiscope::annotate::{annotation_paths, now, read_annotations};
 use axiscope::evaluate::Row;
-use axiscope::fruit::{Fruit, PeduncleChoice, read_cloud};
+use axiscope::fruit::{Fruit, PeduncleChoice, Request, read_cloud};
 use axiscope::geometry::Unit;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -148,7 +148,12 @@ fn prepare<'a>(
         .iter()
         .find(|path| Row::name_in(&args.folder, path) == row.file)
         .with_context(|| format!("there is no cloud {:?} in {}", row.file, args.folder.display()))?;
-    let fruit = Fruit::read(path, args.unit, &PeduncleChoice::None)?;
+    let request = Request {
+        unit: args.unit,
+        peduncle: PeduncleChoice::None,
+        ..Request::default()
+    };
+    let fruit = Fruit::read(path, &request)?;
     anyhow::ensure!(
         row.sha256.as_ref().is_none_or(|hash| *hash == fruit.file.sha256),
         "{} is not the cloud that this axis was set for",

@@ -1,4 +1,4 @@
-//! The options of a picture.
+//! The command-line options of a picture.
 
 use axiscope::evaluate::TruthChoice;
 use axiscope::render::{Camera, Projection};
@@ -48,7 +48,7 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// Returns the drawing that these options ask for.
+    /// The settings of the picture.
     pub(super) fn drawing(&self) -> Drawing {
         Drawing {
             size_px: self.size,

@@ -15,7 +15,7 @@ use super::picture_options::Picture;
 use super::progress::StageClock;
 use super::usage_error;
 
-/// What of the picture is asked for; the analysis has its own options.
+/// The arguments of `render`.
 #[derive(Debug, Args)]
 pub(super) struct Render {
     /// The point cloud (PLY); with --from, its present path
@@ -109,7 +109,7 @@ fn examined(
     expected_sha256: Option<&str>,
 ) -> anyhow::Result<Examined> {
     let request = options.request();
-    let fruit = Fruit::read(cloud, request.unit, &request.peduncle)?;
+    let fruit = Fruit::read(cloud, &request)?;
     if expected_sha256.is_some_and(|hash| hash != fruit.file.sha256) {
         eprintln!(
             "Warning: {} has changed since the picture was drawn: this one may differ.",

@@ -7,7 +7,6 @@ use crate::render::{Image, Viewport};
 use crate::view::{Page, PageFacts};
 
 /// Draws what the window shows, as `render` does; points keep their size relative to the picture.
-#[cfg(feature = "window")]
 pub(in crate::app) fn draw(
     state: &State,
     look: &Look,
@@ -26,12 +25,6 @@ pub(in crate::app) fn draw(
         .map_err(|e| e.to_string())
 }
 
-/// Without a renderer there are no pictures.
-#[cfg(not(feature = "window"))]
-pub(in crate::app) fn draw(_: &State, _: &Look, _: [u32; 2]) -> Result<Image, String> {
-    Err("this build draws no pictures: it lacks the feature `window`.".into())
-}
-
 /// The page over a look, for a view of that size.
 pub fn page<'a>(state: &State, look: &'a Look, viewport: Viewport) -> Page<'a> {
     let facts = PageFacts {
@@ -47,7 +40,7 @@ pub fn page<'a>(state: &State, look: &'a Look, viewport: Viewport) -> Page<'a> {
     Page::new(&facts, &name, &state.shown_style(), viewport)
 }
 
-/// How many pixels of a picture a logical pixel of the view becomes.
+/// The number of a picture's pixels per logical pixel of the view.
 pub(in crate::app) fn picture_scale(state: &State, height_px: u32) -> f32 {
     (f64::from(height_px) / state.viewport.height_px) as f32
 }

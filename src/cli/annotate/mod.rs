@@ -76,7 +76,7 @@ pub(super) fn run(args: &Annotate) -> anyhow::Result<()> {
     };
     let author = author.map_err(|error| usage_error(&error.to_string()))?;
     let request = args.analysis.request();
-    let fruit = Fruit::read(&args.cloud, request.unit, &request.peduncle)?;
+    let fruit = Fruit::read(&args.cloud, &request)?;
     let (mut store, writable) = open(&args.cloud, &fruit, author)?;
     let mut out = std::io::stdout().lock();
     if let Some(script) = &args.script {
