@@ -22,7 +22,7 @@ mod start;
 mod summary;
 mod sweep;
 mod tags;
-#[cfg(feature = "reports")]
+#[cfg(feature = "window")]
 mod thumbnails;
 
 pub use examine::{Examined, TruthChoice, compared, examine, peduncle_disagreement_deg, reference_of};
@@ -40,5 +40,5 @@ pub use start::{StartError, start_axis};
 pub use summary::Summary;
 pub use sweep::{Sweep, SweepError, SweepSettings, sweep_cloud};
 pub use tags::{TAGS_FILE, Tagged, add_tags, read_tags, write_tags};
-#[cfg(feature = "reports")]
+#[cfg(feature = "window")]
 pub use thumbnails::{THUMBNAIL_PX, ThumbnailFile, ThumbnailRenderer, ThumbnailSettings};

@@ -8,7 +8,6 @@ use crate::evaluate::{Row, Sweep, TruthChoice, WorstPicture, result_files};
 use crate::fruit::Request;
 
 /// The number of clouds with a picture in the report.
-#[cfg(feature = "window")]
 const PICTURES: usize = 12;
 /// The name of the folder of results.
 const FOLDER: &str = "axiscope-results";
@@ -165,13 +164,6 @@ fn new_folder(into: &Path) -> std::io::Result<PathBuf> {
     }
 }
 
-#[cfg(feature = "window")]
 fn pictures(task: &Task) -> (Vec<WorstPicture>, Option<String>) {
     crate::evaluate::pictures_of_worst(&task.clouds, &task.rows, &task.request, PICTURES)
-}
-
-/// Draws nothing: there is no renderer in this build.
-#[cfg(not(feature = "window"))]
-fn pictures(_: &Task) -> (Vec<WorstPicture>, Option<String>) {
-    (Vec::new(), None)
 }
