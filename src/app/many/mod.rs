@@ -2,9 +2,9 @@
 //! drawn small, and swept over settings.
 
 mod background;
+mod cloud_rows;
 mod saving;
 mod sweeping;
-mod cloud_rows;
 mod tag_store;
 mod tagging;
 mod thumbnails;
@@ -20,13 +20,13 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use crate::app::workers::{Lane, Pool};
-use crate::evaluate::{Tagged, TruthChoice};
+use crate::evaluate::{CloudTags, TruthChoice};
 use crate::fruit::Request;
 use crate::parallel::BackgroundPool;
 
-pub use saving::evaluate_command_line;
-pub use sweeping::{MOST_TAUS, SweepState, SweepRanges};
 pub use cloud_rows::{Column, Filter, Sort, TableRow, ordered};
+pub use saving::evaluate_command_line;
+pub use sweeping::{MOST_TAUS, SweepRanges, SweepState};
 pub use thumbnails::{KEPT_PICTURES, Thumbnail, Thumbnails};
 
 use background::{BatchContext, BatchResult};
@@ -190,7 +190,7 @@ pub enum ManyCommand {
         /// Which cloud.
         place: usize,
         /// What is said of it now.
-        tagged: Tagged,
+        tagged: CloudTags,
     },
 }
 
@@ -218,7 +218,7 @@ pub(super) struct Many {
     results: Lane<Result<String, String>>,
     tags_read: HashSet<PathBuf>,
     /// The tags and notes that were given in this session, which are newer than any file that is still to be read.
-    edited: HashMap<PathBuf, Tagged>,
+    edited: HashMap<PathBuf, CloudTags>,
 }
 
 impl Many {
