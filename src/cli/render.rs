@@ -15,16 +15,16 @@ use super::picture_options::Picture;
 use super::progress::StageClock;
 use super::usage_error;
 
-/// What of the picture is asked for; the analysis has its own options.
+/// The arguments of `render`.
 #[derive(Debug, Args)]
 pub(super) struct Render {
-    /// The point cloud (PLY); with --from, where it lies now
+    /// The point cloud (PLY); with --from, its present path
     #[arg(required_unless_present = "from")]
     cloud: Option<PathBuf>,
-    /// The PNG to write; it carries its settings
+    /// The PNG to write, which carries its settings
     #[arg(short, long, value_name = "PATH")]
     out: PathBuf,
-    /// Draw a picture again, from the settings that it carries
+    /// Draw this picture again, from the settings that it carries
     #[arg(long, value_name = "PNG", conflicts_with_all = ["Picture", "AnalysisOptions"])]
     from: Option<PathBuf>,
     #[command(flatten)]
@@ -109,7 +109,7 @@ fn examined(
     expected_sha256: Option<&str>,
 ) -> anyhow::Result<Examination> {
     let request = options.request();
-    let fruit = Fruit::read(cloud, request.unit, &request.peduncle)?;
+    let fruit = Fruit::read(cloud, &request)?;
     if expected_sha256.is_some_and(|hash| hash != fruit.file.sha256) {
         eprintln!(
             "Warning: {} has changed since the picture was drawn: this one may differ.",

@@ -126,7 +126,7 @@ impl Outcome {
         observe: &dyn Observe,
     ) -> Result<(Self, Option<Examination>), Cancelled> {
         let failed = |reason| Ok((Self::failed(file, reason), None));
-        let fruit = match Fruit::read_watched(path, request.unit, &request.peduncle, observe) {
+        let fruit = match Fruit::read_watched(path, request, observe) {
             Ok(fruit) => fruit,
             Err(FruitError::Read(error)) if matches!(error.kind, ReadErrorKind::Cancelled) => {
                 return Err(Cancelled);

@@ -46,7 +46,7 @@ pub fn pictures_of_worst(
 /// Draws a picture as PNG bytes that hold the command line to draw it again.
 fn report_picture(path: &Path, row: &Row, request: &Request, gpu: &Gpu) -> Result<Vec<u8>, String> {
     let named = || path.display().to_string();
-    let fruit = Fruit::read(path, request.unit, &request.peduncle).map_err(|e| e.to_string())?;
+    let fruit = Fruit::read(path, request).map_err(|e| e.to_string())?;
     let examined = examine(fruit, request, &()).map_err(|e| format!("{}: {e}", named()))?;
     let reference = reference_of_row(row.truth.as_deref());
     let image = draw_small(&examined, reference, REPORT_PX, Theme::Light, gpu)?;

@@ -71,7 +71,7 @@ impl PlaneView {
     }
 }
 
-/// What a view shows of a cloud, and how: everything that its scene depends on.
+/// The content and style of a view: everything that its scene depends on.
 #[derive(Debug, Clone)]
 pub struct SceneRequest<'a> {
     /// The cloud's points.
@@ -86,7 +86,7 @@ pub struct SceneRequest<'a> {
     pub reference: Option<&'a AxisEstimate>,
     /// All axes to compare with.
     pub references: &'a [AxisEstimate],
-    /// How the cloud is drawn.
+    /// The style.
     pub style: &'a Style,
     /// A point's diameter in physical pixels.
     pub point_size_px: f32,

@@ -22,7 +22,7 @@ use crate::render::{Camera, DrawError, Gpu, Image, Projection, Scene, Viewport, 
 pub struct Drawing {
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// How the cloud is drawn.
+    /// The style of the cloud.
     pub style: Style,
     /// The plane's steps g and h; `None` for the best plane.
     pub plane: Option<[usize; 2]>,

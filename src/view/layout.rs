@@ -1,4 +1,4 @@
-//! Where legend, scale bar, triad, angle and caption stand, so that none covers another.
+//! The layout of legend, scale bar, triad, angle and caption, so that none covers another.
 
 use glam::{DVec2, DVec3};
 
@@ -7,7 +7,7 @@ use super::page::Page;
 use super::primitive::{Anchor, Primitive};
 use crate::render::{Camera, Color, Insets};
 
-/// How wide a text is, in pixels, at a size in pixels: the painter's own measure.
+/// The painter's measure of a text: its width in pixels at a size in pixels.
 type Measure<'a> = &'a dyn Fn(&str, f64) -> f64;
 
 impl Page<'_> {
@@ -47,7 +47,7 @@ impl Page<'_> {
     }
 }
 
-/// The room that texts and legends take at the picture's edges: what the fruit is framed between.
+/// The room that texts and legends take at the edges of the picture; the fruit is framed between them.
 pub fn insets(page: &Page<'_>, measure: Measure<'_>) -> Insets {
     let margin = page.margin_px();
     let legend = page.legend_width_px(measure);
@@ -63,7 +63,7 @@ pub fn insets(page: &Page<'_>, measure: Measure<'_>) -> Insets {
     }
 }
 
-/// A box that something stands in.
+/// A box that is taken.
 #[derive(Debug, Clone, Copy)]
 struct Area {
     min: DVec2,
@@ -215,8 +215,8 @@ fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Primitive>) -> Ar
     area
 }
 
-/// The world's axes as the camera sees them, in the lower left corner. The letters name the file's
-/// own axes, so y points down in a camera's frame.
+/// The directions of the world's axes in the view, in the lower left corner. The letters name the file's own axes, so y
+/// points down in a camera's frame.
 fn triad(page: &Page<'_>, camera: &Camera, bottom: f64, out: &mut Vec<Primitive>) -> Area {
     let (size, margin) = (page.text_px(), page.margin_px());
     let arm = 2.2 * size;
@@ -314,7 +314,7 @@ fn scale_bar(
     })
 }
 
-/// A text beside a point, moved to where it covers nothing else and nothing cuts it off.
+/// A text beside a point, moved so that it covers nothing else and is not cut off.
 #[expect(
     clippy::too_many_arguments,
     reason = "the page, a text with its place, and what is there already"

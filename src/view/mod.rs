@@ -1,7 +1,7 @@
-//! What a view of an analysis shows, as plain data: colors and their legend, overlays, and the
-//! primitives painted over the picture.
+//! A view of an analysis: colors and their legend, overlays, the primitives painted over the picture, and the one way
+//! from settings to a scene ([`compose()`]), its page ([`Page`]) and a picture.
 //!
-//! Nothing here draws. A window and a picture without one show the same, since both get it from here.
+//! All but pictures is plain data. A window and a picture without one show the same, since both are made here.
 
 mod caption;
 mod coloring;

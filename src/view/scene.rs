@@ -1,4 +1,4 @@
-//! From an analysis to what the renderer draws.
+//! The scene of an analysis.
 
 use std::sync::Arc;
 
@@ -14,10 +14,10 @@ use crate::geometry::{Extent, Plane};
 use crate::method::{AxisEstimate, AxisSource};
 use crate::render::{Color, EyeDome, Line, Points, Polygon, Scene};
 
-/// How an analysis is drawn.
+/// The settings of a scene.
 #[derive(Debug, Clone, Copy)]
 pub struct SceneSettings<'a> {
-    /// How the cloud is drawn, whatever the plane.
+    /// The style of the cloud.
     pub style: &'a Style,
     /// A point's diameter in physical pixels.
     pub point_size_px: f32,
@@ -43,7 +43,7 @@ impl SceneSettings<'_> {
 
 /// The computed axis is green, as in the paper's figures.
 pub const AXIS_COLOR: Color = [0x2f, 0xd0, 0x68, 255];
-/// What a further reference is drawn in, so that several can be told apart.
+/// The color of a further reference, so that several can be told apart.
 pub fn reference_color(source: &AxisSource) -> Color {
     match source {
         AxisSource::Peduncle => [0xf0, 0xe4, 0x42, 255],
@@ -55,12 +55,12 @@ pub fn reference_color(source: &AxisSource) -> Color {
 
 const WHITE: Color = [255; 4];
 const PLANE: Color = [0x8f, 0xb8, 0xde, 255];
-/// Samples that can still be told apart.
+/// Numbers of lines that can still be told apart.
 const PARTNER_LINES: usize = 120;
 const NORMAL_LINES: usize = 400;
 
-/// Everything of an analysis that is drawn in space. `colored` comes from [`super::color_points`].
-/// Generations start from zero: whoever draws several scenes after each other sets them.
+/// Builds the scene of an analysis. `colored` comes from [`super::color_points`]. Generations are zero: a caller that
+/// draws several scenes after each other sets them.
 pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSettings<'_>) -> Scene {
     let extent = subject.shown.extent;
     let size = extent.size().length().max(1e-9);
@@ -120,7 +120,7 @@ pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSett
     scene
 }
 
-/// A cloud that was not analyzed: its points and nothing else.
+/// Builds the scene of a cloud that was not analyzed: its points and nothing else.
 pub fn build_bare_scene(shown: &ShownPoints, colored: &Colored, settings: &SceneSettings<'_>) -> Scene {
     let mut scene = points_alone(shown, colored.colors.clone().into(), settings);
     scene.fit_bounds();
@@ -143,13 +143,13 @@ fn points_alone(shown: &ShownPoints, colors: Arc<[Color]>, settings: &SceneSetti
     scene
 }
 
-/// Enough of the points to tell where their bulk lies, without a walk over all of a large cloud.
+/// A sample of the points, large enough to tell the place of their bulk.
 fn bulk_sample(shown: &ShownPoints) -> impl Iterator<Item = DVec3> {
     let step = (shown.len() / 20_000).max(1);
     shown.positions.iter().step_by(step).copied()
 }
 
-/// The bulk of the points alone: what [`framed_points`] begins with.
+/// The bulk of the points, without strays.
 pub fn framed_cloud(shown: &ShownPoints) -> Vec<DVec3> {
     let extent = shown.extent;
     let margin = 0.2 * extent.size() + DVec3::splat(1e-3 * extent.size().length());
@@ -159,7 +159,7 @@ pub fn framed_cloud(shown: &ShownPoints) -> Vec<DVec3> {
         .collect()
 }
 
-/// What must be in the picture: the bulk of the points (no stray decides), the plane and the axes.
+/// The points that must be in the picture: the bulk of the cloud (without strays), the plane and the axes.
 pub fn framed_points(shown: &ShownPoints, settings: &SceneSettings<'_>) -> Vec<DVec3> {
     let mut framed = framed_cloud(shown);
     let size = shown.extent.size().length();
@@ -177,8 +177,7 @@ pub fn framed_points(shown: &ShownPoints, settings: &SceneSettings<'_>) -> Vec<D
     framed
 }
 
-/// Where an axis is drawn from and to: through the fruit and a little beyond. The upper end comes
-/// second.
+/// The ends of a drawn axis, which runs through the fruit and a little beyond. The upper end comes second.
 pub(super) fn axis_ends(axis: &AxisEstimate, size: f64) -> [DVec3; 2] {
     let upward = if axis.direction.y > 0.0 {
         -axis.direction
@@ -196,7 +195,7 @@ pub(super) fn axis_ends(axis: &AxisEstimate, size: f64) -> [DVec3; 2] {
     ]
 }
 
-/// How much wider lines are drawn in a picture of so many rows than in one of the usual size.
+/// The factor for the widths of lines in a picture of so many rows.
 pub fn line_scale(height_px: u32) -> f32 {
     (height_px as f32 / 900.0).max(1.0)
 }
@@ -208,7 +207,7 @@ fn mixed(a: Color, b: Color, share_of_b: f64) -> Color {
     })
 }
 
-/// The points that the plane cuts through stand out.
+/// Brightens the points that the plane cuts through.
 fn brighten_cut(positions: &[DVec3], colors: &mut [Color], plane: &Plane, half_width: f64, theme: Theme) {
     for (p, color) in positions.iter().zip(colors) {
         if plane.signed_distance(*p).abs() <= half_width {
@@ -307,7 +306,7 @@ fn add_center_and_viewpoint(scene: &mut Scene, subject: Subject<'_>, settings: &
     }
 }
 
-/// Every so many of `count`, at most `most` of them, spread evenly.
+/// At most `most` of `count` indices, spread evenly.
 fn sample(count: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..count).step_by(count.div_ceil(most).max(1))
 }

@@ -1,4 +1,4 @@
-//! How a cloud is drawn, independent of the cloud.
+//! The style of a view, independent of the cloud.
 
 use super::coloring::Coloring;
 use super::overlays::{Overlay, Overlays};

@@ -59,7 +59,7 @@ fn a_small_folder_is_evaluated_as_it_is_opened_and_rows_equal_examine_s() {
     assert!(app.state().many.progress.is_none());
     let request = app.state().settings.request.clone();
     for (row, path) in rows(&app).iter().zip(&paths) {
-        let fruit = Fruit::read(path, request.unit, &request.peduncle).expect("a fruit");
+        let fruit = Fruit::read(path, &request).expect("a fruit");
         let examined = examine(fruit, &request, &()).expect("analyzed");
         let name = path.file_name().expect("a name").to_string_lossy();
         assert_eq!(*row, Outcome::of(&name, &examined).against(TruthChoice::Auto));

@@ -8,8 +8,7 @@ use std::sync::LazyLock;
 
 use crate::helpers::command_line::{json, run, simulate};
 use axiscope::evaluate::{TruthChoice, examine, reference_of};
-use axiscope::fruit::Request;
-use axiscope::fruit::{Fruit, PeduncleChoice};
+use axiscope::fruit::{Fruit, Request};
 use axiscope::geometry::Unit;
 use axiscope::method::{CenterMethod, Params, Preset, RandomSearch};
 use glam::DVec3;
@@ -176,16 +175,14 @@ fn the_reference_runs_from_the_center_through_the_peduncle_s_mean_whatever_finds
     ] {
         for without_peduncle in [false, true] {
             let request = Request {
-                unit: None,
-                peduncle: PeduncleChoice::Auto,
                 without_peduncle,
-                normals: None,
                 params: Params {
                     center,
                     ..params.clone()
                 },
+                ..Request::default()
             };
-            let fruit = Fruit::read(&file, None, &PeduncleChoice::Auto).unwrap();
+            let fruit = Fruit::read(&file, &request).unwrap();
             let examined = examine(fruit, &request, &()).unwrap();
             let found = examined.fruit.peduncle.as_ref().unwrap();
             // Its mean is that of its own points, with or without them in the analysis.

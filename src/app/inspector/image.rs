@@ -47,7 +47,7 @@ pub fn page<'a>(state: &State, look: &'a Look, viewport: Viewport) -> Page<'a> {
     Page::new(&facts, &name, &state.shown_style(), viewport)
 }
 
-/// How many pixels of a picture a logical pixel of the view becomes.
+/// The number of a picture's pixels per logical pixel of the view.
 pub(in crate::app) fn picture_scale(state: &State, height_px: u32) -> f32 {
     (f64::from(height_px) / state.viewport.height_px) as f32
 }

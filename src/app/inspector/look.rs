@@ -24,7 +24,7 @@ pub struct LookRequest {
     pub reference: Option<AxisEstimate>,
     /// All axes to compare with.
     pub references: Vec<AxisEstimate>,
-    /// How the cloud is drawn.
+    /// The style of the cloud.
     pub style: Style,
     /// Physical pixels per logical pixel.
     pub pixels_per_point: f32,

@@ -1,4 +1,4 @@
-//! Where the view is seen from.
+//! Cameras: presets, framing and projections.
 
 use glam::{DVec2, DVec3};
 
@@ -7,13 +7,12 @@ use crate::app::state::State;
 use crate::render::{Camera, Insets, Projection, Viewport};
 use crate::view::{Overlay, Page, SceneSettings, ViewPreset, framed_cloud, framed_points, insets};
 
-/// Views are framed with room for what is written over them; widths of texts are taken as those of a
-/// usual font, since nothing is drawn yet.
+/// The approximate width of a text, for framing with room for the page: the window's font is not known here.
 fn measure(text: &str, size_px: f64) -> f64 {
     0.5 * size_px * text.chars().count() as f64
 }
 
-/// What is to be in the picture, and the room that is left for it.
+/// The points that must be in the picture, and the room that the page takes.
 fn framed(state: &State) -> (Vec<DVec3>, Insets) {
     let Some(shown) = state.shown() else {
         return (Vec::new(), Insets::default());

@@ -120,7 +120,7 @@ fn tip(ctx: &egui::Context, action: &Action) -> String {
     format!("{} ({})", action.title, action.keys_text(ctx))
 }
 
-/// Which reference the error is measured against, where there are several.
+/// The choice of the reference that the error is measured against, if there are several.
 fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
     if state.references.len() < 2 || state.true_axes.is_blind {
         return;
