@@ -54,15 +54,8 @@ pub fn evaluate_command_line(state: &State) -> Option<Vec<String>> {
         &folder
     };
     let mut words: Vec<String> = ["axiscope".into(), "evaluate".into(), folder.display().to_string()].into();
-    let truth = match state.many.against {
-        TruthChoice::Auto => None,
-        TruthChoice::Peduncle => Some("peduncle"),
-        TruthChoice::PeduncleDirection => Some("peduncle-direction"),
-        TruthChoice::Manual => Some("manual"),
-        TruthChoice::Truth => Some("truth"),
-    };
-    if let Some(truth) = truth {
-        words.extend(["--truth".into(), truth.into()]);
+    if state.many.against != TruthChoice::Auto {
+        words.extend(["--truth".into(), state.many.against.name().into()]);
     }
     words.extend(["--out".into(), FOLDER.into()]);
     words.extend(state.settings.request.options());
