@@ -5,9 +5,7 @@ use std::time::Duration;
 
 use crate::helpers::driving::{act, app, asset, settle, with_sample};
 use axiscope::app::command_line;
-use axiscope::app::{
-    App, Command, PlaneChoice, Sample, Session, SessionError, Source, Tool, quoted,
-};
+use axiscope::app::{App, Command, PlaneChoice, Sample, Session, SessionError, Source, Tool, quoted};
 use axiscope::fruit::Request;
 use axiscope::method::{Aggregation, CenterMethod, Params, Preset, analyze};
 use axiscope::render::Viewport;

@@ -17,7 +17,10 @@ fn a_cell_of_the_map_opens_its_setting() {
         tau_step_cm_per_rad: 0.5,
         ..SweepRanges::default()
     };
-    super::apply(&mut harness, Command::Many(ManyCommand::SweepRanges(Box::new(ranges))));
+    super::apply(
+        &mut harness,
+        Command::Many(ManyCommand::SweepRanges(Box::new(ranges))),
+    );
     harness.get_by_label("Sweep 20 settings over 10 clouds").click();
     settle(&mut harness);
     snapshot(&mut harness, "sweep");
