@@ -25,7 +25,7 @@ pub(super) struct Analyze {
     cloud: PathBuf,
     #[command(flatten)]
     analysis: AnalysisOptions,
-    /// How to print the result
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

@@ -22,9 +22,9 @@ pub enum Coloring {
     Side,
     /// Whether a point has a visible partner, or is one (Fig. 5).
     Partner,
-    /// d, in centimeters.
+    /// d, the distance from the mirrored point to its nearest neighbor, in centimeters.
     Distance,
-    /// ξ, in degrees.
+    /// ξ, the angle between the mirrored normal and that neighbor's, in degrees.
     Angle,
     /// d + τ·ξ, in centimeters.
     Score,
