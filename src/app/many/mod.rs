@@ -1,6 +1,7 @@
 //! The open clouds as a set: analyzed in the background, as a table that is sorted and filtered, tagged,
 //! drawn small, and swept over settings.
 
+mod apply;
 mod background;
 mod cloud_rows;
 pub(super) mod commands;

@@ -48,17 +48,17 @@ impl Sweeper {
 impl Many {
     /// Begins a sweep over the chosen ranges.
     pub(super) fn sweep(&mut self, cx: &mut Context) {
-        let folder = &mut cx.state.many;
-        let Some(settings) = folder.sweep.ranges.settings() else {
+        let many = &mut cx.state.many;
+        let Some(settings) = many.sweep.ranges.settings() else {
             cx.say(true, "These ranges of u and τ hold no settings to try.");
             return;
         };
-        let places: Vec<usize> = if folder.sweep.ranges.only_current {
+        let places: Vec<usize> = if many.sweep.ranges.only_current {
             cx.state.current.into_iter().collect()
         } else {
-            folder.order.to_vec()
+            many.order.to_vec()
         };
-        let path = |&place: &usize| folder.rows.get(place)?.path.clone();
+        let path = |&place: &usize| many.rows.get(place)?.path.clone();
         let clouds: Vec<PathBuf> = places.iter().filter_map(path).collect();
         if clouds.is_empty() {
             cx.say(
@@ -70,11 +70,11 @@ impl Many {
         let sweeper = &mut self.sweeper;
         sweeper.turn += 1;
         sweeper.began = Instant::now();
-        sweeper.of = Some((cx.state.settings.request.clone(), folder.against));
-        folder.sweep.map = Some(Arc::new(Sweep::new(settings.clone())));
-        folder.sweep.clouds = [0, clouds.len()];
-        folder.sweep.is_stale = false;
-        folder.sweep.progress = Some(EvaluationProgress {
+        sweeper.of = Some((cx.state.settings.request.clone(), many.against));
+        many.sweep.map = Some(Arc::new(Sweep::new(settings.clone())));
+        many.sweep.clouds = [0, clouds.len()];
+        many.sweep.is_stale = false;
+        many.sweep.progress = Some(EvaluationProgress {
             done: 0,
             total: clouds.len(),
             left: None,
@@ -84,7 +84,7 @@ impl Many {
             clouds,
             settings,
             request: cx.state.settings.request.clone(),
-            against: folder.against,
+            against: many.against,
         };
         let context = self.context.clone();
         let swept = sweeper.swept.0.clone();

@@ -56,7 +56,7 @@ impl ThumbnailQueue {
 
 impl Many {
     /// Takes note of the clouds that are visible.
-    pub(super) fn want_pictures(&mut self, places: &[usize], cx: &mut Context) {
+    pub(super) fn want_pictures(&mut self, places: &[usize], cx: &Context) {
         let rows = &cx.state.many.rows;
         let path = |&place: &usize| rows.get(place)?.path.clone();
         // More than are kept would evict one another again and again.
@@ -116,7 +116,7 @@ impl Many {
         }
     }
 
-    fn ask_for_pictures(&mut self, cx: &mut Context) {
+    fn ask_for_pictures(&mut self, cx: &Context) {
         let pictures = &cx.state.many.pictures;
         let is_missing = |path: &&PathBuf| pictures.get(*path).is_none_or(|picture| picture.is_stale);
         let thumbnails = &mut self.thumbnails;

@@ -1,4 +1,4 @@
-//! The commands about the open clouds, and the work on them in each frame.
+//! The work on the open clouds in each frame: results are taken, and evaluations are started.
 
 use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
@@ -9,9 +9,7 @@ use std::time::{Duration, Instant};
 use super::Many;
 use super::background::{BatchResult, BatchTask, evaluate_batch};
 use super::cloud_rows::{TableRow, ordered};
-use super::commands::ManyCommand;
 use super::state::{EvaluationProgress, ManyState};
-use crate::app::command::Command;
 use crate::app::context::Context;
 use crate::app::inspector::stages::Source;
 use crate::app::state::State;
@@ -24,7 +22,7 @@ const CALM: Duration = Duration::from_millis(300);
 
 impl Many {
     /// Keeps rows in a folder, so that they need not be worked out again the next time.
-    pub fn keep_rows_in(&mut self, folder: PathBuf, cx: &mut Context) {
+    pub fn keep_rows_in(&mut self, folder: PathBuf, cx: &Context) {
         let store = RowStore::in_folder(folder, StoreKind::Cache);
         self.context.store = Arc::new(store);
         self.look_up(cx);
@@ -36,7 +34,7 @@ impl Many {
         self.context.store.hash_reads()
     }
 
-    /// The list of open clouds has changed. A folder that is not too large is evaluated at once.
+    /// Follows a change of the list of open clouds. A folder that is not too large is evaluated at once.
     pub(in crate::app) fn list_changed(&mut self, opened_folder: bool, cx: &mut Context) {
         self.wants_all |= opened_folder && cx.state.entries.len() <= EVALUATED_AT_ONCE;
         self.take_list(cx);
@@ -59,77 +57,10 @@ impl Many {
         }
     }
 
-    /// Whether the current cloud is being worked on: the background waits while it is.
+    /// Sets whether the background waits, because the current cloud is being worked on.
     pub(in crate::app) fn set_yielding(&self, yields: bool) {
         let flag = &self.context.is_foreground_busy;
         flag.store(yields, Ordering::Relaxed);
-    }
-
-    /// Does what is asked.
-    pub(in crate::app) fn apply(&mut self, command: ManyCommand, cx: &mut Context) {
-        match command {
-            ManyCommand::Evaluate => {
-                self.wants_all = true;
-                self.look_up(cx);
-            }
-            ManyCommand::Cancel => {
-                self.lane.cancel();
-                self.expected.clear();
-                self.wants_all = false;
-                self.is_evaluating = false;
-                cx.state.many.progress = None;
-                cx.state.many.was_cancelled = true;
-            }
-            ManyCommand::Sort(sort) => {
-                cx.state.many.sort = sort;
-                cx.state.many.reorder();
-            }
-            ManyCommand::Filter(filter) => {
-                cx.state.many.filter = *filter;
-                cx.state.many.reorder();
-            }
-            ManyCommand::Against(choice) => {
-                cx.state.many.against = choice;
-                cx.state.many.reorder();
-            }
-            ManyCommand::GoWorse(by) => self.go_worse(by, cx),
-            ManyCommand::Picture(places) => self.want_pictures(&places, cx),
-            ManyCommand::SweepRanges(ranges) => cx.state.many.sweep.ranges = *ranges,
-            ManyCommand::Sweep => self.sweep(cx),
-            ManyCommand::SaveResults(into) => self.save_results(into, cx),
-            ManyCommand::CancelSweep => self.cancel_sweep(cx),
-            ManyCommand::OpenSetting { u, tau_cm_per_rad } => {
-                let mut request = cx.state.settings.request.clone();
-                request.params.u = u;
-                request.params.tau_cm_per_rad = tau_cm_per_rad;
-                cx.set_request(request, None);
-            }
-            ManyCommand::Tag { place, tagged } => self.tag(place, tagged, cx),
-        }
-    }
-
-    /// Shows the cloud of the table whose error is the next larger or smaller.
-    fn go_worse(&mut self, by: isize, cx: &mut Context) {
-        let folder = &cx.state.many;
-        let error = |place: usize| folder.rows[place].error_deg(folder.against);
-        let mut ranked: Vec<(f64, usize)> = folder
-            .order
-            .iter()
-            .filter_map(|&place| Some((error(place)?, place)))
-            .collect();
-        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let Some(last) = ranked.len().checked_sub(1) else {
-            cx.say(false, "No cloud has an error against this reference yet.");
-            return;
-        };
-        let current = cx.state.current;
-        let to = match ranked.iter().position(|&(_, place)| Some(place) == current) {
-            Some(at) => at.checked_add_signed(by).map_or(0, |to| to.min(last)),
-            None if by > 0 => last,
-            None => 0,
-        };
-        let place = ranked[to].1;
-        cx.ask(Command::Show(place));
     }
 
     /// Makes the rows those of the list; what is known of a cloud stays.
@@ -177,7 +108,7 @@ impl Many {
 
     /// Asks the cache for all clouds, or evaluates them where that is wanted, as soon as nothing else is
     /// under way. A single cloud is the current one, and needs no more.
-    fn look_up(&mut self, cx: &mut Context) {
+    pub(super) fn look_up(&mut self, cx: &Context) {
         if cx.state.many.rows.len() > 1 {
             self.rested = Some(CALM);
         }
