@@ -7,7 +7,7 @@ use super::inspector::key::AnalysisKey;
 use super::inspector::stages::Stages;
 use super::state::{Message, Settings, State};
 use super::workers::{Crashed, Pool};
-use crate::evaluate::Tagged;
+use crate::evaluate::CloudTags;
 use crate::fruit::Request;
 use crate::text::sentence;
 use crate::undo::History;
@@ -19,7 +19,7 @@ pub(super) enum Step {
     /// The tags and the note of a cloud.
     Tags {
         path: PathBuf,
-        tagged: Tagged,
+        tagged: CloudTags,
     },
 }
 

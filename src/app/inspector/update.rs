@@ -11,7 +11,7 @@ use super::{Inspector, Pick};
 use crate::app::context::Context;
 use crate::app::state::{PlaneChoice, State};
 use crate::app::workers::{Crashed, PATIENCE};
-use crate::evaluate::compared;
+use crate::evaluate::collect_references;
 use crate::fruit::Fruit;
 use crate::parallel::Cancelled;
 use crate::text::sentence;
@@ -177,7 +177,8 @@ impl Inspector {
         set_problem(state, None);
         state.set_subject(&walked.fruit, &walked.shown);
         let walked = state.true_axes.with_annotations(walked);
-        let (references, warnings) = compared(&walked.fruit, &state.settings.request, &walked.analysis);
+        let (references, warnings) =
+            collect_references(&walked.fruit, &state.settings.request, &walked.analysis);
         let before = state.walked.as_ref();
         if before.is_none_or(|b| !Arc::ptr_eq(&b.shown, &walked.shown)) {
             state.picked = None;

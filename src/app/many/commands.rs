@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::cloud_rows::{Filter, Sort};
 use super::sweep_ranges::SweepRanges;
-use crate::evaluate::{Tagged, TruthChoice};
+use crate::evaluate::{CloudTags, TruthChoice};
 
 /// Something that is asked of the set of clouds.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,6 +43,6 @@ pub enum ManyCommand {
         /// The cloud's place in the list.
         place: usize,
         /// Its tags and note.
-        tagged: Tagged,
+        tagged: CloudTags,
     },
 }

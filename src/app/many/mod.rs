@@ -22,7 +22,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
 use super::workers::{Lane, Pool};
-use crate::evaluate::Tagged;
+use crate::evaluate::CloudTags;
 use crate::fruit::Request;
 use crate::parallel::BackgroundPool;
 
@@ -63,7 +63,7 @@ pub(super) struct Many {
     results: Lane<Result<String, String>>,
     tags_read: HashSet<PathBuf>,
     /// The tags and notes that were given in this session, which are newer than any file that is still to be read.
-    edited: HashMap<PathBuf, Tagged>,
+    edited: HashMap<PathBuf, CloudTags>,
 }
 
 impl Many {

@@ -10,10 +10,10 @@ use super::cloud_rows::{Filter, TableRow};
 use super::state::ManyState;
 use super::tag_store::TagResult;
 use crate::app::context::{Context, Step};
-use crate::evaluate::Tagged;
+use crate::evaluate::CloudTags;
 
 impl Many {
-    pub(super) fn tag(&mut self, place: usize, tagged: Tagged, cx: &mut Context) {
+    pub(super) fn tag(&mut self, place: usize, tagged: CloudTags, cx: &mut Context) {
         let Some(row) = cx.state.many.rows.get(place) else {
             return;
         };
@@ -35,7 +35,7 @@ impl Many {
         self.set_tagged(path, tagged, cx);
     }
 
-    pub(in crate::app) fn set_tagged(&mut self, path: PathBuf, tagged: Tagged, cx: &mut Context) {
+    pub(in crate::app) fn set_tagged(&mut self, path: PathBuf, tagged: CloudTags, cx: &mut Context) {
         if let Some(&place) = self.places.get(&path) {
             let row = &mut Arc::make_mut(&mut cx.state.many.rows)[place];
             row.tagged = tagged.clone();
@@ -79,7 +79,7 @@ impl Many {
 
 impl Many {
     /// The tags and the note of a cloud now, which may no longer be in the list.
-    pub(in crate::app) fn tagged(&self, rows: &[TableRow], path: &Path) -> Tagged {
+    pub(in crate::app) fn tagged(&self, rows: &[TableRow], path: &Path) -> CloudTags {
         let row = self.places.get(path).and_then(|&place| rows.get(place));
         let tagged = row.map(|row| &row.tagged).or(self.edited.get(path));
         tagged.cloned().unwrap_or_default()

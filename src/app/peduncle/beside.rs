@@ -3,7 +3,7 @@
 use crate::app::inspector::key::AnalysisKey;
 use crate::app::inspector::stages::{Stages, WalkError};
 use crate::app::workers::JobWatch;
-use crate::evaluate::compared;
+use crate::evaluate::collect_references;
 use crate::fruit::Request;
 use crate::method::{AxisEstimate, AxisSource, axis_error_rad};
 use crate::parallel::Watch as _;
@@ -43,7 +43,7 @@ fn errors(stages: &mut Stages, key: &AnalysisKey, without_peduncle: bool, watch:
             WalkError::Analysis { error, .. } => sentence(&error.to_string()),
             WalkError::Cancelled => "It was called off.".into(),
         })?;
-    let (references, _) = compared(&walked.fruit, &request, &walked.analysis);
+    let (references, _) = collect_references(&walked.fruit, &request, &walked.analysis);
     let axis = walked.analysis.axis.as_ref().ok_or("There is no axis.")?;
     let error = |reference: &AxisEstimate| {
         let degrees = axis_error_rad(axis, reference).to_degrees();

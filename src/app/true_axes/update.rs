@@ -14,7 +14,7 @@ use crate::annotate::{CloudAgreement, FAR_OFF_DEG};
 use crate::app::context::Context;
 use crate::app::state::State;
 use crate::app::workers::PATIENCE;
-use crate::evaluate::compared;
+use crate::evaluate::collect_references;
 use crate::parallel::Cancelled;
 use crate::text::sentence;
 use crate::undo::History;
@@ -231,7 +231,8 @@ fn clouds(state: &State) -> Vec<PathBuf> {
 fn refresh_references(state: &mut State) {
     if let Some(walked) = state.walked.clone() {
         let walked = state.true_axes.with_annotations((*walked).clone());
-        let (references, warnings) = compared(&walked.fruit, &state.settings.request, &walked.analysis);
+        let (references, warnings) =
+            collect_references(&walked.fruit, &state.settings.request, &walked.analysis);
         (state.references, state.warnings) = (references, warnings);
         state.walked = Some(Arc::new(walked));
         state.take_current_row();
