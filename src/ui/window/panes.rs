@@ -7,7 +7,7 @@ use crate::app::{Command, PeduncleCommand, State, TrueAxesCommand};
 use crate::render::Viewport;
 use crate::ui::action::{Act, Action, WindowAct};
 use crate::ui::inspector::{plane_bar, view_bar, view3d};
-use crate::ui::many::{self, FolderAnswer};
+use crate::ui::many::{self, PanelRequest};
 use crate::ui::pane::Pane;
 use crate::ui::panels::{clouds, contributions, hemisphere, parameters, ranking, score_map, why_this_score};
 use crate::ui::widgets::notice;
@@ -126,9 +126,9 @@ impl Panes<'_> {
             Pane::Table | Pane::Charts | Pane::Gallery | Pane::Sweep => {
                 if let Some(answer) = many::show(ui, pane, state, commands) {
                     self.acts.push(Act::Window(match answer {
-                        FolderAnswer::ShowView => WindowAct::Show(Pane::View),
-                        FolderAnswer::SaveResults => WindowAct::SaveResults,
-                        FolderAnswer::CopyCommandLine => WindowAct::CopyEvaluation,
+                        PanelRequest::ShowView => WindowAct::Show(Pane::View),
+                        PanelRequest::SaveResults => WindowAct::SaveResults,
+                        PanelRequest::CopyCommandLine => WindowAct::CopyEvaluation,
                     }));
                 }
             }
