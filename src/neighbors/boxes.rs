@@ -147,13 +147,13 @@ impl BoxGroup {
         sum
     }
 
-    /// The box that is most promising for the nearest point to `from`: a near one, and rather a small one,
-    /// since a large one may hold nothing nearby.
+    /// The box that is most promising for the nearest point to `from`: the nearest one, unless it is so much
+    /// larger than another that it may hold nothing nearby.
     pub(super) fn most_promising<S: Simd>(&self, from: &[f64; 3]) -> usize {
         let mut promises = self.excesses::<S>(from, 0.0);
         for i in 0..WIDTH {
             for e in 0..3 {
-                promises[i] += self.half[e][i] * self.half[e][i];
+                promises[i] += self.half[e][i] * self.half[e][i] * (1.0 / 64.0);
             }
         }
         let nearest = (0..WIDTH).min_by(|&a, &b| promises[a].total_cmp(&promises[b]));
