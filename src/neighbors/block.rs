@@ -276,7 +276,7 @@ impl Block {
         (count, last)
     }
 
-    /// The place in a leaf of the query's nearest point there, if single precision tells them apart.
+    /// The position of the point of a leaf that is nearest to a query, if single precision tells it.
     #[inline(always)]
     pub(super) fn nearest_in<S: Simd>(
         &self,
@@ -311,6 +311,6 @@ impl Block {
             sum = simd.add_f32s(sum, simd.select_f32s(within, codes[part], simd.splat_f32s(0.0)));
         }
         let place = (simd.reduce_sum_f32s(sum) as usize).wrapping_sub(LEAF);
-        (place < LEAF).then_some(place)
+        (place < LEAF).then_some(looked.leaf * LEAF + place)
     }
 }

@@ -110,13 +110,6 @@ impl Tree {
         best
     }
 
-    /// The squared distance from `q` to the point at a position, as [`Tree::distances_squared`] has it.
-    #[inline(always)]
-    pub(super) fn distance_squared(&self, position: usize, q: DVec3) -> f64 {
-        let d = q - self.point(position);
-        d.x * d.x + d.y * d.y + d.z * d.z
-    }
-
     /// A leaf near `from`: down the most promising boxes.
     pub(super) fn descend(&self, from: &[f64; 3]) -> usize {
         let node = self.levels.iter().rev().fold(0, |node: usize, groups| {
