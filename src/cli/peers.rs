@@ -22,8 +22,12 @@ fn kiddo_tree(points: &[DVec3]) -> anyhow::Result<ImmutableKdTree<f64, 3>> {
 pub(super) fn kiddo_nearest(points: &[DVec3], queries: &[DVec3]) -> anyhow::Result<()> {
     let tree = kiddo_tree(points)?;
     for query in queries {
-        let query = tree.query(&query.to_array());
-        black_box(query.nearest_one::<SquaredEuclidean<f64>>().execute());
+        let query = query.to_array();
+        black_box(
+            tree.query(&query)
+                .nearest_one::<SquaredEuclidean<f64>>()
+                .execute(),
+        );
     }
     Ok(())
 }
@@ -32,8 +36,8 @@ pub(super) fn kiddo_nearest(points: &[DVec3], queries: &[DVec3]) -> anyhow::Resu
 pub(super) fn kiddo_k_nearest(points: &[DVec3], queries: &[DVec3], k: NonZeroUsize) -> anyhow::Result<()> {
     let tree = kiddo_tree(points)?;
     for query in queries {
-        let query = tree.query(&query.to_array());
-        black_box(query.nearest_n::<SquaredEuclidean<f64>>(k).execute());
+        let query = query.to_array();
+        black_box(tree.query(&query).nearest_n::<SquaredEuclidean<f64>>(k).execute());
     }
     Ok(())
 }

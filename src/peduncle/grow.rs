@@ -36,8 +36,10 @@ pub fn median_spacing(points: &[DVec3]) -> Option<f64> {
         .iter()
         .step_by(step)
         .filter_map(|p| {
-            let query = tree.query(&p.to_array());
-            let near = query.nearest_n::<SquaredEuclidean<f64>>(two).execute();
+            let query = p.to_array();
+            let near = (tree.query(&query))
+                .nearest_n::<SquaredEuclidean<f64>>(two)
+                .execute();
             let other = places[near.get(1)?.item as usize];
             Some(p.distance(DVec3::from_array(other)))
         })
