@@ -17,17 +17,6 @@ const FIRST: f32 = 0.05;
 /// A block whose center moved by so many times the radii of both blocks is somewhere else.
 const JUMP: f64 = 8.0;
 
-/// A code for each place of a leaf: the sum of several is no code.
-const CODES: [f32; LEAF] = {
-    let mut codes = [0.0; LEAF];
-    let mut place = 0;
-    while place < LEAF {
-        codes[place] = (LEAF + place) as f32;
-        place += 1;
-    }
-    codes
-};
-
 /// A leaf that was looked into.
 pub(super) struct Looked {
     pub(super) leaf: usize,
@@ -286,31 +275,28 @@ impl Block {
         query: usize,
     ) -> Option<usize> {
         let near = &tree.leaves[looked.leaf];
-        let mut w = [simd.splat_f32s(0.0); 3];
+        let mut w = [0.0; 3];
         for e in 0..3 {
-            w[e] = simd.splat_f32s(self.local[e].0[query] - looked.center[e]);
+            w[e] = self.local[e].0[query] - looked.center[e];
         }
-        // No closures: they would not be built for these instructions.
-        let (x, _) = S::as_simd_f32s(&near.minus_twice[0]);
-        let (y, _) = S::as_simd_f32s(&near.minus_twice[1]);
-        let (z, _) = S::as_simd_f32s(&near.minus_twice[2]);
-        let (squared, _) = S::as_simd_f32s(&near.squared);
-        let mut all = [simd.splat_f32s(f32::INFINITY); LEAF];
-        let mut least = all[0];
-        for part in 0..squared.len() {
-            let more = simd.mul_add_e_f32s(w[0], x[part], squared[part]);
-            let more = simd.mul_add_e_f32s(w[1], y[part], more);
-            all[part] = simd.mul_add_e_f32s(w[2], z[part], more);
-            least = simd.min_f32s(least, all[part]);
+        let [x, y, z] = &near.minus_twice;
+        let mut excess = Lanes::default();
+        for j in 0..LEAF {
+            let more = times_plus::<S>(w[0], x[j], near.squared[j]);
+            let more = times_plus::<S>(w[1], y[j], more);
+            excess.0[j] = times_plus::<S>(w[2], z[j], more);
         }
-        let limit = simd.splat_f32s(simd.reduce_min_f32s(least) + looked.ties);
-        let (codes, _) = S::as_simd_f32s(&CODES);
-        let mut sum = simd.splat_f32s(0.0);
-        for part in 0..squared.len() {
-            let within = simd.less_than_or_equal_f32s(all[part], limit);
-            sum = simd.add_f32s(sum, simd.select_f32s(within, codes[part], simd.splat_f32s(0.0)));
+        let limit = excess.least(simd) + looked.ties;
+        // Each place within the limit adds its code. The sum of several is no code.
+        let mut codes = Lanes::default();
+        for j in 0..LEAF {
+            codes.0[j] = if excess.0[j] <= limit {
+                (LEAF + j) as f32
+            } else {
+                0.0
+            };
         }
-        let place = (simd.reduce_sum_f32s(sum) as usize).wrapping_sub(LEAF);
+        let place = (codes.sum(simd) as usize).wrapping_sub(LEAF);
         (place < LEAF).then_some(looked.leaf * LEAF + place)
     }
 }

@@ -52,6 +52,16 @@ impl Lanes {
         simd.reduce_sum_f32s(sum)
     }
 
+    /// The least of all numbers.
+    #[inline(always)]
+    pub(super) fn least<S: Simd>(&self, simd: S) -> f32 {
+        let mut least = simd.splat_f32s(f32::INFINITY);
+        for &vector in self.vectors::<S>() {
+            least = simd.min_f32s(least, vector);
+        }
+        simd.reduce_min_f32s(least)
+    }
+
     /// The greatest of all numbers and zero.
     #[inline(always)]
     pub(super) fn greatest<S: Simd>(&self, simd: S) -> f32 {
