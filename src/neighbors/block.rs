@@ -33,8 +33,7 @@ pub(super) struct Looked {
 /// With q a query and c a leaf's center, both seen from the queries' center, and p a point of the leaf, seen
 /// from c, the squared distance is |q|² + |c|² - 2 q·c + |p|² - 2 (q - c)·p. The first term is the same for
 /// all points and left out, and the second, which is computed in double precision, is replaced by what it
-/// exceeds a reference by. All that remains is small or well known, so that single precision
-/// holds the differences.
+/// exceeds a reference by. The rest is small or well known: single precision holds the differences.
 #[derive(Default)]
 pub(super) struct Block {
     /// The mean of the queries, and the largest distance of a query from it.

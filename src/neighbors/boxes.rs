@@ -164,13 +164,13 @@ impl BoxGroup {
     /// The box that is most promising for the nearest point to `from`: the nearest one, unless it is so much
     /// larger than another that it may hold nothing nearby.
     pub(super) fn most_promising<S: Simd>(&self, from: &[f64; 3]) -> usize {
-        let mut promises = self.excesses::<S>(from, 0.0);
-        for i in 0..WIDTH {
-            for e in 0..3 {
-                promises[i] += self.half[e][i] * self.half[e][i] * (1.0 / 64.0);
-            }
-        }
-        let nearest = (0..WIDTH).min_by(|&a, &b| promises[a].total_cmp(&promises[b]));
-        nearest.unwrap_or(0)
+        let excesses = self.excesses::<S>(from, 0.0);
+        let promise = |&i: &usize| {
+            let [x, y, z] = self.half.map(|half| half[i] * half[i]);
+            excesses[i] + (x + y + z) * (1.0 / 64.0)
+        };
+        (0..WIDTH)
+            .min_by(|a, b| promise(a).total_cmp(&promise(b)))
+            .unwrap_or(0)
     }
 }

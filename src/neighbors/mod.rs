@@ -84,8 +84,7 @@ pub struct Neighbors {
 }
 
 impl Neighbors {
-    /// Indexes `points`, which must be finite. `None` if there are none, or more than [`u32::MAX`] of
-    /// them.
+    /// Indexes `points`, which must be finite. `None` if there are none, or more than [`u32::MAX`].
     pub fn new(points: &[DVec3]) -> Option<Self> {
         if points.is_empty() || u32::try_from(points.len()).is_err() {
             return None;
@@ -130,8 +129,7 @@ impl Neighbors {
         &self.order
     }
 
-    /// The place nearest to `query`, which must be finite; of several as near the one of the lowest
-    /// index.
+    /// The place nearest to `query`, which must be finite; of several as near the one of the lowest index.
     pub fn nearest(&self, query: DVec3) -> Neighbor {
         self.nearest_of_each(&[query])[0]
     }
@@ -149,16 +147,12 @@ impl Neighbors {
         &self.first
     }
 
-    fn multiplicity(&self, position: usize) -> usize {
-        (self.start[position + 1] - self.start[position]) as usize
-    }
-
     #[inline(always)]
     fn neighbor(&self, position: usize, distance_squared: f64) -> Neighbor {
         Neighbor {
             index: self.first[position] as usize,
             distance_squared,
-            multiplicity: self.multiplicity(position),
+            multiplicity: self.points_at(position).len(),
         }
     }
 }
@@ -194,18 +188,12 @@ impl pulp::WithSimd for NearestOfEach<'_> {
         let mut search = BatchSearch::new(self.index, simd);
         let mut result = BlockResult::default();
         for queries in self.queries.chunks(BLOCK) {
-            let mut columns = [[0.0; BLOCK]; 3];
-            for i in 0..BLOCK {
-                let query = queries[i.min(queries.len() - 1)];
-                for e in 0..3 {
-                    columns[e][i] = query[e];
-                }
-            }
+            let column = |e: usize| std::array::from_fn(|i| queries[i.min(queries.len() - 1)][e]);
+            let columns = [column(0), column(1), column(2)];
             search.find(&columns, queries.len(), &mut result);
-            for i in 0..queries.len() {
-                let position = result.position[i] as usize;
-                all.push(self.index.neighbor(position, result.distance_squared[i]));
-            }
+            let found = result.position.iter().zip(&result.distance_squared);
+            let neighbor = |(&position, &squared)| self.index.neighbor(position as usize, squared);
+            all.extend(found.take(queries.len()).map(neighbor));
         }
         all
     }

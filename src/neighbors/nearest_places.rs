@@ -65,7 +65,7 @@ impl Neighbors {
         found.sort_unstable_by(|a, b| self.by_distance(a, b));
         let mut wanted = count.get();
         let enough = found.iter().position(|&(_, position)| {
-            let here = self.multiplicity(position as usize);
+            let here = self.points_at(position as usize).len();
             let last = here >= wanted;
             wanted = wanted.saturating_sub(here);
             last
