@@ -36,7 +36,6 @@ impl Lanes {
         S::as_simd_f32s(&self.0).0
     }
 
-    /// The numbers as vectors.
     #[inline(always)]
     pub(super) fn vectors_mut<S: Simd>(&mut self) -> &mut [S::f32s] {
         S::as_mut_simd_f32s(&mut self.0).0

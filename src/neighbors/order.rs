@@ -1,5 +1,4 @@
-//! The order of points in the tree: the points of each leaf and of each node lie close together, and
-//! so do those that follow one another.
+//! The order of points in the tree: those of a leaf or node lie close together, and so do consecutive ones.
 
 use glam::DVec3;
 
@@ -12,13 +11,11 @@ const PARALLEL: usize = 512;
 /// A point and its number.
 type Item = (DVec3, u32);
 
-/// The numbers of the points, in the tree's order.
+/// The numbers of the points, of which there must be some, in the tree's order.
 pub(super) fn spatial_order(points: &[DVec3]) -> Vec<u32> {
     let mut items: Vec<Item> = points.iter().copied().zip(0..).collect();
-    if !items.is_empty() {
-        let from = extent(&items).0;
-        sort(&mut items, from);
-    }
+    let from = extent(&items).0;
+    sort(&mut items, from);
     items.iter().map(|item| item.1).collect()
 }
 
