@@ -22,17 +22,17 @@ use super::options::{OrAuto, positive, unit_or_auto};
 pub(super) struct Annotations {
     /// The folder with the clouds (PLY) and the axis files beside them
     folder: PathBuf,
-    /// How to print them
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-    /// From how many degrees on an annotator is far off
+    /// Angle in degrees beyond which an annotator counts as far off
     #[arg(long, value_name = "DEG", default_value_t = FAR_OFF_DEG, value_parser = positive)]
     far_off: f64,
     /// Also write every axis as CSV
     #[arg(long, value_name = "FILE")]
     export: Option<PathBuf>,
-    /// First take axes from CSV with an export's columns, at least the file, the annotator and both ends; each
-    /// becomes an edit that can be undone
+    /// First import axes from CSV with the columns of an export, at least the file, the annotator and both ends;
+    /// each becomes an edit that can be undone
     #[arg(long, value_name = "FILE")]
     import: Option<PathBuf>,
     /// Unit of the clouds' coordinates

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use axiscope::evaluate::{Examined, examine};
+use axiscope::evaluate::{Examination, examine};
 use axiscope::fruit::Fruit;
 use axiscope::render::Gpu;
 use axiscope::view::{DrawingError, PictureSettings, draw_cloud, encode_picture, picture_settings};
@@ -18,13 +18,13 @@ use super::usage_error;
 /// The arguments of `render`.
 #[derive(Debug, Args)]
 pub(super) struct Render {
-    /// The point cloud (PLY); with --from, where it lies now
+    /// The point cloud (PLY); with --from, its present path
     #[arg(required_unless_present = "from")]
     cloud: Option<PathBuf>,
-    /// The PNG to write; it carries its settings
+    /// The PNG to write, which carries its settings
     #[arg(short, long, value_name = "PATH")]
     out: PathBuf,
-    /// Draw a picture again, from the settings that it carries
+    /// Draw this picture again, from the settings that it carries
     #[arg(long, value_name = "PNG", conflicts_with_all = ["Picture", "AnalysisOptions"])]
     from: Option<PathBuf>,
     #[command(flatten)]
@@ -107,7 +107,7 @@ fn examined(
     cloud: &Path,
     options: &AnalysisOptions,
     expected_sha256: Option<&str>,
-) -> anyhow::Result<Examined> {
+) -> anyhow::Result<Examination> {
     let request = options.request();
     let fruit = Fruit::read(cloud, &request)?;
     if expected_sha256.is_some_and(|hash| hash != fruit.file.sha256) {

@@ -23,7 +23,7 @@ use sweep::SweepOption;
 pub(super) struct Evaluate {
     /// The folder with the clouds (PLY)
     folder: PathBuf,
-    /// Reference axis of the error
+    /// Reference that errors are measured against
     #[arg(long, value_enum, default_value = "auto")]
     truth: TruthChoice,
     /// The folder for results.csv, results.parquet, summary.json, report.html and the figures
@@ -32,16 +32,16 @@ pub(super) struct Evaluate {
     /// Evaluate with and without the peduncle, the paper's two experiments, into two folders in DIR
     #[arg(long, conflicts_with = "without_peduncle")]
     both: bool,
-    /// Also map the mean error over settings: u=FROM..TO[:STEP] and tau=FROM..TO[:STEP], either or both
+    /// Also map the mean error over ranges of settings: u=FROM..TO[:STEP], tau=FROM..TO[:STEP], or both
     #[arg(long, value_name = "RANGE", num_args = 1..=2)]
     sweep: Vec<SweepOption>,
-    /// Evaluate only the I-th of N parts of the folder, for a job array; the parts' results can be concatenated
+    /// Evaluate only part I of N of the folder, for a job array; the parts' tables can be concatenated
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Reuse the rows that an earlier run into the same folder finished, if cloud and settings are the same
+    /// Reuse the rows of an earlier run into the same folder whose cloud and settings are unchanged
     #[arg(long)]
     resume: bool,
-    /// Number of pictures of the worst clouds in the report
+    /// Number of the worst clouds that the report shows pictures of
     #[cfg(feature = "window")]
     #[arg(long, value_name = "N", default_value_t = 12)]
     pictures: usize,
