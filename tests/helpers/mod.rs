@@ -4,7 +4,7 @@
 pub mod bodies;
 pub mod command_line;
 pub mod disk;
-#[cfg(feature = "reports")]
+#[cfg(feature = "window")]
 pub mod driving;
 #[cfg(feature = "snapshots")]
 pub mod in_window;
