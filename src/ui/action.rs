@@ -163,14 +163,14 @@ impl Action {
 
     /// Returns the names of the keys, joined by “or”.
     pub fn keys_text(&self, ctx: &egui::Context) -> String {
-        let texts: Vec<String> = self.keys.iter().map(|k| key_text(ctx, k)).collect();
+        let texts: Vec<String> = self.keys.iter().map(|k| key_text(ctx, *k)).collect();
         texts.join(" or ")
     }
 }
 
 /// Returns the name of a key as printed on the keyboard.
-pub fn key_text(ctx: &egui::Context, key: &KeyboardShortcut) -> String {
-    let text = ctx.format_shortcut(key);
+pub fn key_text(ctx: &egui::Context, key: KeyboardShortcut) -> String {
+    let text = ctx.format_shortcut(&key);
     let name = key.logical_key.name();
     match key.logical_key {
         Key::OpenBracket => text.replace(name, "["),

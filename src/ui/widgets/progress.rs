@@ -8,11 +8,11 @@ use crate::method::Stage;
 /// Returns a bar with the running stage, its share that is done, and the seconds from the second one on.
 pub fn stage_progress(progress: &Progress) -> ProgressBar {
     let stage = progress.stage.map_or("Reading", stage_name);
-    let mut text = format!("{stage} · {:.0} %", 100.0 * progress.share);
-    let seconds = progress.elapsed.as_secs();
-    if seconds >= 2 {
-        text += &format!(" · {seconds} s");
-    }
+    let percent = 100.0 * progress.share;
+    let text = match progress.elapsed.as_secs() {
+        0..2 => format!("{stage} · {percent:.0} %"),
+        seconds => format!("{stage} · {percent:.0} % · {seconds} s"),
+    };
     ProgressBar::new(progress.share as f32).text(text)
 }
 

@@ -29,7 +29,7 @@ fn item(ui: &mut egui::Ui, action: &Action, acts: &mut Vec<Act>) {
     let keys = action
         .keys
         .first()
-        .map(|key| key_text(ui.ctx(), key))
+        .map(|key| key_text(ui.ctx(), *key))
         .unwrap_or_default();
     let chosen = if let Some(mut is_on) = action.is_on {
         ui.horizontal(|ui| {
