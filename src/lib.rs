@@ -7,7 +7,9 @@
 //! [`simulate`] makes clouds whose axis is known.
 
 pub mod annotate;
+#[cfg(feature = "reports")]
 pub mod app;
+#[cfg(feature = "reports")]
 pub mod charts;
 pub mod evaluate;
 pub mod fruit;
@@ -22,4 +24,5 @@ pub mod simulate;
 pub mod text;
 #[cfg(feature = "window")]
 pub mod ui;
+pub mod undo;
 pub mod view;

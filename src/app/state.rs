@@ -11,8 +11,8 @@ use super::peduncle::{PeduncleCommand, PeduncleState};
 use super::samples::Sample;
 use crate::app::inspector::look::{Look, Style};
 use crate::app::inspector::stages::{Source, Walked};
-use crate::app::many::{FolderCommand, FolderState};
-use crate::app::true_axes::{AnnotateCommand, Annotating, KeptAnnotating};
+use crate::app::many::{ManyCommand, ManyState};
+use crate::app::true_axes::{TrueAxesCommand, TrueAxesState, KeptTrueAxes};
 use crate::app::workers::Progress;
 use crate::evaluate::reference_of;
 use crate::fruit::PeduncleChoice;
@@ -164,9 +164,9 @@ pub struct State {
     /// How large the interface is; 1 as the screen asks for.
     pub interface_scale: f32,
     /// The open clouds as a set.
-    pub folder: FolderState,
+    pub many: ManyState,
     /// Axes set by hand.
-    pub annotating: Annotating,
+    pub true_axes: TrueAxesState,
 }
 
 impl State {
@@ -202,8 +202,8 @@ impl State {
             messages: Vec::new(),
             is_software: false,
             interface_scale: 1.0,
-            folder: FolderState::new(crate::app::many::KeptFolder::default()),
-            annotating: Annotating::new(KeptAnnotating::default()),
+            many: ManyState::new(crate::app::many::KeptMany::default()),
+            true_axes: TrueAxesState::new(KeptTrueAxes::default()),
         }
     }
 
@@ -256,7 +256,7 @@ impl State {
 
     /// The axis that errors are measured against: the chosen one, or else the first there is.
     pub fn reference(&self) -> Option<&AxisEstimate> {
-        let chosen = self.annotating.compared.as_ref();
+        let chosen = self.true_axes.compared.as_ref();
         let chosen = chosen.and_then(|source| self.references.iter().find(|axis| axis.source == *source));
         chosen
             .or_else(|| reference_of(&self.references, self.truth))
@@ -360,10 +360,10 @@ pub enum Command {
     Peduncle(PeduncleCommand),
 
     /// Something of the set of open clouds.
-    Folder(FolderCommand),
+    Many(ManyCommand),
 
     /// Something about axes set by hand.
-    Annotate(AnnotateCommand),
+    TrueAxes(TrueAxesCommand),
 
     /// Make the interface larger or smaller.
     Scale(f32),

@@ -10,12 +10,13 @@ use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, 
 use axiscope::annotate::{annotation_paths, now, read_annotations};
 use axiscope::evaluate::Row;
 use axiscope::fruit::{Fruit, PeduncleChoice, read_cloud};
+use axiscope::geometry::Unit;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use super::annotate::open;
 use super::evaluate::clouds_in;
-use super::options::{UnitOption, positive};
+use super::options::{OrAuto, positive, unit_or_auto};
 
 #[derive(Debug, Args)]
 pub(super) struct Annotations {
@@ -35,8 +36,8 @@ pub(super) struct Annotations {
     #[arg(long, value_name = "FILE")]
     import: Option<PathBuf>,
     /// Unit of the clouds' coordinates
-    #[arg(long, value_enum, default_value = "auto")]
-    unit: UnitOption,
+    #[arg(long, default_value = "auto", value_parser = unit_or_auto())]
+    unit: OrAuto<Unit>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
@@ -147,7 +148,7 @@ fn prepare<'a>(
         .iter()
         .find(|path| Row::name_in(&args.folder, path) == row.file)
         .with_context(|| format!("there is no cloud {:?} in {}", row.file, args.folder.display()))?;
-    let fruit = Fruit::read(path, args.unit.unit(), &PeduncleChoice::None)?;
+    let fruit = Fruit::read(path, args.unit, &PeduncleChoice::None)?;
     anyhow::ensure!(
         row.sha256.as_ref().is_none_or(|hash| *hash == fruit.file.sha256),
         "{} is not the cloud that this axis was set for",

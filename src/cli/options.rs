@@ -12,6 +12,7 @@ use axiscope::method::{
     RandomSearch, TAU_CM_PER_RAD,
 };
 use axiscope::peduncle::HueRange;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 
@@ -21,7 +22,7 @@ use glam::DVec3;
 pub(super) struct AnalysisOptions {
     /// Which reading of the paper to follow; single options below override it
     #[arg(long, value_enum, default_value = "as-intended")]
-    pub(super) preset: PresetOption,
+    pub(super) preset: Preset,
     /// Steps of the candidate grid along each angle: u² planes
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = grid_size)]
     pub(super) u: usize,
@@ -29,11 +30,11 @@ pub(super) struct AnalysisOptions {
     #[arg(long, value_name = "X", value_parser = not_negative, allow_negative_numbers = true)]
     pub(super) tau: Option<f64>,
     /// Unit of the file's coordinates
-    #[arg(long, value_enum, default_value = "auto")]
-    pub(super) unit: UnitOption,
+    #[arg(long, default_value = "auto", value_parser = unit_or_auto())]
+    pub(super) unit: OrAuto<Unit>,
     /// Where normals come from; auto takes the file's where it has them
-    #[arg(long, value_enum, default_value = "auto")]
-    pub(super) normals: NormalsOption,
+    #[arg(long, default_value = "auto", value_parser = or_auto::<NormalSource>("The file's normals where it has them, else estimated ones"))]
+    pub(super) normals: OrAuto<NormalSource>,
     /// Neighbors that a normal is fitted to, the point itself among them
     #[arg(long, value_name = "N", default_value = "30", value_parser = neighbor_count)]
     pub(super) k: NonZeroUsize,
@@ -48,7 +49,7 @@ pub(super) struct AnalysisOptions {
     pub(super) center_spread: f64,
     /// How a plane's score is made of its points' scores [default: the preset's]
     #[arg(long, value_enum)]
-    pub(super) aggregate: Option<AggregateOption>,
+    pub(super) aggregate: Option<Aggregation>,
     /// Least share of points with a partner that lets a plane win [default: 0.3 for the mean, 0 for the sum]
     #[arg(long, value_name = "F", value_parser = fraction, allow_negative_numbers = true)]
     pub(super) min_partner_fraction: Option<f64>,
@@ -81,55 +82,6 @@ pub(super) struct AnalysisOptions {
     pub(super) max_points: usize,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum PresetOption {
-    /// Eq. 3 and the sum of the scores word for word
-    AsPrinted,
-    /// What the words around the equations mean
-    AsIntended,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum UnitOption {
-    /// Meters
-    M,
-    /// Centimeters
-    Cm,
-    /// Millimeters
-    Mm,
-    /// As the file states, else guessed from its extent
-    Auto,
-}
-
-impl UnitOption {
-    pub(super) fn unit(self) -> Option<Unit> {
-        match self {
-            Self::M => Some(Unit::Meter),
-            Self::Cm => Some(Unit::Centimeter),
-            Self::Mm => Some(Unit::Millimeter),
-            Self::Auto => None,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum NormalsOption {
-    /// Fit a plane to each point's neighborhood
-    Estimate,
-    /// Take the file's
-    File,
-    /// Take the file's where it has them, else estimate
-    Auto,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum AggregateOption {
-    /// The mean over the points with a partner
-    Mean,
-    /// The sum over them
-    Sum,
-}
-
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum CenterOption {
     Equidistant,
@@ -157,37 +109,25 @@ impl AnalysisOptions {
     /// What to do with a cloud.
     pub(super) fn request(&self) -> Request {
         Request {
-            unit: self.unit.unit(),
+            unit: self.unit,
             peduncle: match &self.removed {
                 Some(folder) => PeduncleChoice::Removed(folder.clone()),
                 None => self.peduncle.clone(),
             },
             without_peduncle: self.without_peduncle,
-            normals: match self.normals {
-                NormalsOption::Estimate => Some(NormalSource::Estimate),
-                NormalsOption::File => Some(NormalSource::File),
-                NormalsOption::Auto => None,
-            },
+            normals: self.normals,
             params: self.params(),
         }
     }
 
     fn params(&self) -> Params {
-        let preset = match self.preset {
-            PresetOption::AsPrinted => Preset::AsPrinted,
-            PresetOption::AsIntended => Preset::AsIntended,
-        };
         let search = RandomSearch {
             count: self.center_samples as usize,
             spread: self.center_spread,
             seed: self.seed,
         };
-        let defaults = Params::new(preset, Unit::Centimeter);
-        let aggregation = match self.aggregate {
-            Some(AggregateOption::Mean) => Aggregation::Mean,
-            Some(AggregateOption::Sum) => Aggregation::Sum,
-            None => defaults.aggregation,
-        };
+        let defaults = Params::new(self.preset, Unit::Centimeter);
+        let aggregation = self.aggregate.unwrap_or(defaults.aggregation);
         Params {
             u: self.u,
             tau_cm_per_rad: self.tau.unwrap_or(TAU_CM_PER_RAD),
@@ -197,7 +137,7 @@ impl AnalysisOptions {
                 Some(CenterOption::MeanRms) => CenterMethod::MeanRms(search),
                 Some(CenterOption::Sphere) => CenterMethod::Sphere,
                 Some(CenterOption::Given(center)) => CenterMethod::Given(center),
-                None => CenterMethod::of_preset(preset, search),
+                None => CenterMethod::of_preset(self.preset, search),
             },
             aggregation,
             min_partner_fraction: self
@@ -215,6 +155,24 @@ impl AnalysisOptions {
             ..defaults
         }
     }
+}
+
+/// The value of an option that takes `auto` besides the names of `T`; `None` stands for `auto`. Under this name,
+/// clap does not take it for an option that may be missing.
+pub(super) type OrAuto<T> = Option<T>;
+
+/// Parses the names of `T`, and `auto`, whose help text is `help`.
+fn or_auto<T: ValueEnum + Send + Sync + 'static>(
+    help: &'static str,
+) -> impl TypedValueParser<Value = Option<T>> {
+    let named = T::value_variants().iter().filter_map(T::to_possible_value);
+    let auto = PossibleValue::new("auto").help(help);
+    PossibleValuesParser::new(named.chain([auto])).map(|name| T::from_str(&name, false).ok())
+}
+
+/// Parses a unit, or `auto`.
+pub(super) fn unit_or_auto() -> impl TypedValueParser<Value = Option<Unit>> {
+    or_auto("As the file states, else guessed from its extent")
 }
 
 pub(super) fn grid_size(text: &str) -> Result<usize, String> {

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// Which reference an error is measured against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum TruthChoice {
     /// The simulator's truth where there is one, else the annotators', else the peduncle's.
     Auto,

@@ -7,19 +7,23 @@
 mod examine;
 mod outcome;
 mod report;
+#[cfg(feature = "reports")]
 mod results;
 mod row;
 mod start;
 mod summary;
 mod sweep;
+#[cfg(feature = "reports")]
 mod table;
 
 pub use examine::{Examined, TruthChoice, compared, examine, peduncle_disagreement_deg, reference_of};
 pub use outcome::{KnownAxis, Outcome};
 pub use report::{AnalysisReport, SCHEMA, Timings};
+#[cfg(feature = "reports")]
 pub use results::{ResultsError, WorstPicture, result_files, worst_first};
 pub use row::Row;
 pub use start::{StartError, start_axis};
 pub use summary::Summary;
 pub use sweep::{Sweep, SweepError, SweepSettings, sweep_cloud};
+#[cfg(feature = "reports")]
 pub use table::{TableError, csv, parquet};

@@ -8,13 +8,16 @@ use crate::geometry::{Cloud, Unit};
 
 /// How numbers stand in a PLY file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Encoding {
     /// As text, a line a row.
     Ascii,
     /// As bytes, the least significant first: what almost all machines use.
     #[default]
+    #[cfg_attr(feature = "cli", value(name = "binary", help = "Binary, little-endian"))]
     BinaryLittleEndian,
     /// As bytes, the most significant first.
+    #[cfg_attr(feature = "cli", value(skip))]
     BinaryBigEndian,
 }
 

@@ -14,6 +14,7 @@ use crate::render::Color;
 
 /// What the points' colors show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Coloring {
     /// The file's colors.
     Rgb,

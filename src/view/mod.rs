@@ -10,6 +10,7 @@ mod legend;
 mod overlays;
 mod palette;
 mod pick;
+#[cfg(feature = "reports")]
 mod picture;
 mod preset;
 mod primitive;
@@ -24,6 +25,7 @@ pub use legend::{Legend, Ramp, Swatch};
 pub use overlays::{Overlay, Overlays};
 pub use palette::{NEUTRAL, PEDUNCLE_MARK, VALUE_STOPS, faded, value_color};
 pub use pick::pick_point;
+#[cfg(feature = "reports")]
 pub use picture::{
     PictureError, PictureSettings, SETTINGS_KEY, decode_picture, encode_picture, paint_primitives,
     picture_settings, text_width_px,

@@ -67,6 +67,7 @@ pub enum Primitive {
 
 /// Light on dark, or dark on light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Theme {
     /// A dark background.
     #[default]

@@ -2,7 +2,7 @@
 
 use crate::helpers::driving::asset;
 use crate::helpers::in_window;
-use crate::helpers::in_window::{Windowed, apply, compare, press, settle};
+use crate::helpers::in_window::{Windowed, apply, compare, compare_view, press, settle};
 use axiscope::app::{Command, PlaneChoice, Sample, Session, Tool};
 use axiscope::method::Preset;
 use axiscope::ui::{Pane, Start, Window};
@@ -26,6 +26,12 @@ fn snapshot(harness: &mut Windowed, name: &str) {
     compare(harness, "screenshots/window", name);
 }
 
+fn view_snapshot(harness: &mut Windowed, name: &str) {
+    harness.remove_cursor();
+    settle(harness);
+    compare_view(harness, "screenshots/window", name);
+}
+
 fn color(harness: &mut Windowed, coloring: Coloring) {
     let mut style = harness.state().app().state().style.clone();
     style.coloring = coloring;
@@ -46,7 +52,13 @@ fn each_coloring_has_its_legend() {
     let mut harness = window();
     for coloring in Coloring::ALL {
         color(&mut harness, coloring);
-        snapshot(&mut harness, &format!("color_{}", coloring.name()));
+        harness.remove_cursor();
+        settle(&mut harness);
+        compare_view(
+            &mut harness,
+            "screenshots/window",
+            &format!("color_{}", coloring.name()),
+        );
     }
 }
 
@@ -96,7 +108,7 @@ fn the_worst_plane_looks_bad() {
     let mut harness = window();
     apply(&mut harness, Command::StepRank(10_000));
     color(&mut harness, Coloring::Score);
-    snapshot(&mut harness, "worst_plane");
+    view_snapshot(&mut harness, "worst_plane");
 }
 
 #[test]
@@ -181,7 +193,7 @@ fn overlays_and_the_axes() {
         assert!(overlays.has(overlay), "{}", overlay.name());
     }
     press(&mut harness, Modifiers::ALT, Key::Num3);
-    snapshot(&mut harness, "overlays");
+    view_snapshot(&mut harness, "overlays");
 }
 
 #[test]
@@ -200,7 +212,7 @@ fn a_narrow_window() {
 
 #[test]
 fn a_screen_of_many_pixels() {
-    let mut harness = window_of([1100.0, 720.0], 2.0, Vec::new());
+    let mut harness = window_of([900.0, 600.0], 2.0, Vec::new());
     assert!((harness.state().app().state().pixels_per_point - 2.0).abs() < 1e-6);
     snapshot(&mut harness, "pixels_per_point_2");
 }

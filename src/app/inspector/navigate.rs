@@ -48,8 +48,8 @@ fn framed(state: &State) -> (Vec<DVec3>, Insets) {
                 eye_dome_strength: 0.0,
                 plane,
                 axis: axis.as_ref(),
-                reference: state.reference().filter(|_| !state.annotating.is_blind),
-                references: if state.annotating.is_blind {
+                reference: state.reference().filter(|_| !state.true_axes.is_blind),
+                references: if state.true_axes.is_blind {
                     &[]
                 } else {
                     &state.references
@@ -67,7 +67,7 @@ fn plane_and_axis(
     Option<crate::geometry::Plane>,
     Option<crate::method::AxisEstimate>,
 ) {
-    if state.annotating.is_blind {
+    if state.true_axes.is_blind {
         return (None, None);
     }
     let plane = state.analysis().zip(state.chosen_plane_index()).map(|(a, i)| {

@@ -22,7 +22,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::app::workers::{Lane, Repaint};
+use crate::app::workers::{Lane, Pool};
 use crate::evaluate::TruthChoice;
 use crate::fruit::Request;
 use crate::parallel::Crew;
@@ -37,7 +37,7 @@ pub use thumbnails::{KEPT_PICTURES, THUMBNAIL_PX, Thumbnail, Thumbnails};
 
 use run::{Background, Found};
 use sweeping::Sweeper;
-use tags::Scribe;
+use tags::TagStore;
 use thumbnails::Studio;
 
 /// Folders of up to so many clouds are evaluated as they are opened.
@@ -45,7 +45,7 @@ pub const EVALUATED_AT_ONCE: usize = 200;
 
 /// How far the evaluation of the open clouds is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FolderProgress {
+pub struct EvaluationProgress {
     /// Clouds that are done.
     pub done: usize,
     /// Clouds in all.
@@ -57,7 +57,7 @@ pub struct FolderProgress {
 /// What survives a restart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct KeptFolder {
+pub struct KeptMany {
     sort: Sort,
     filter: Filter,
     against: TruthChoice,
@@ -65,14 +65,14 @@ pub struct KeptFolder {
     folders: Vec<PathBuf>,
 }
 
-impl KeptFolder {
+impl KeptMany {
     /// The folders that were open: they may hold more clouds by now.
     pub fn folders(&self) -> &[PathBuf] {
         &self.folders
     }
 }
 
-impl Default for KeptFolder {
+impl Default for KeptMany {
     fn default() -> Self {
         Self {
             sort: Sort::default(),
@@ -86,7 +86,7 @@ impl Default for KeptFolder {
 
 /// The open clouds as a set: what there is to show of them.
 #[derive(Debug, Clone)]
-pub struct FolderState {
+pub struct ManyState {
     /// A row a cloud, in the order of the list.
     pub rows: Arc<Vec<TableRow>>,
     /// The places of those that are shown, in the order of the table.
@@ -100,7 +100,7 @@ pub struct FolderState {
     /// What errors are measured against in charts, gallery, filter and results.
     pub against: TruthChoice,
     /// How far the evaluation is; `None` where there is none under way.
-    pub progress: Option<FolderProgress>,
+    pub progress: Option<EvaluationProgress>,
     /// Clouds without a row of the parameters in force.
     pub missing: usize,
     /// Whether an evaluation was called off, or never begun.
@@ -115,8 +115,8 @@ pub struct FolderState {
     pub folders: Vec<PathBuf>,
 }
 
-impl FolderState {
-    pub(super) fn new(kept: KeptFolder) -> Self {
+impl ManyState {
+    pub(super) fn new(kept: KeptMany) -> Self {
         Self {
             rows: Arc::default(),
             order: Arc::default(),
@@ -135,8 +135,8 @@ impl FolderState {
         }
     }
 
-    pub(super) fn kept(&self) -> KeptFolder {
-        KeptFolder {
+    pub(super) fn kept(&self) -> KeptMany {
+        KeptMany {
             sort: self.sort,
             filter: self.filter.clone(),
             against: self.against,
@@ -161,7 +161,7 @@ impl FolderState {
 
 /// Something that is asked of the set of clouds.
 #[derive(Debug, Clone, PartialEq)]
-pub enum FolderCommand {
+pub enum ManyCommand {
     /// Analyze every open cloud that has no row of the parameters in force.
     Evaluate,
     /// Call that off; what is done stays.
@@ -200,18 +200,8 @@ pub enum FolderCommand {
     },
 }
 
-/// One change of tags, for undo.
-#[derive(Debug, Clone)]
-struct TagEdit {
-    path: PathBuf,
-    before: Tagged,
-    after: Tagged,
-    /// How many settings could be undone when it was made: it comes between those and the next.
-    depth: usize,
-}
-
-/// What works behind [`FolderState`].
-pub(super) struct Folder {
+/// What works behind [`ManyState`].
+pub(super) struct Many {
     background: Background,
     crew: Arc<Crew>,
     lane: Lane<()>,
@@ -229,26 +219,24 @@ pub(super) struct Folder {
     began: std::time::Instant,
     worked_out: usize,
     places: HashMap<PathBuf, usize>,
-    scribe: Scribe,
+    tag_store: TagStore,
     studio: Studio,
     sweeper: Sweeper,
     results: Lane<Result<String, String>>,
     tags_read: HashSet<PathBuf>,
-    undone: Vec<TagEdit>,
-    done: Vec<TagEdit>,
-    /// Whether the next change of tags continues the last one.
-    is_typing: bool,
+    /// The tags and notes that were given in this session, which are newer than any file that is still to be read.
+    edited: HashMap<PathBuf, Tagged>,
 }
 
-impl Folder {
-    pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
+impl Many {
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
             background: Background {
                 cache: Arc::new(Mutex::default()),
                 is_in_the_way: Arc::new(AtomicBool::new(false)),
             },
             crew: Arc::new(Crew::new()),
-            lane: Lane::new("folder", repaint.clone())?,
+            lane: Lane::new(pool),
             found: channel(),
             turn: 0,
             request: None,
@@ -259,19 +247,17 @@ impl Folder {
             began: std::time::Instant::now(),
             worked_out: 0,
             places: HashMap::new(),
-            scribe: Scribe::new(repaint.clone())?,
-            studio: Studio::new(repaint)?,
-            sweeper: Sweeper::new(repaint)?,
-            results: Lane::new("results", repaint.clone())?,
+            tag_store: TagStore::new(pool),
+            studio: Studio::new(pool),
+            sweeper: Sweeper::new(pool),
+            results: Lane::new(pool),
             tags_read: HashSet::new(),
-            undone: Vec::new(),
-            done: Vec::new(),
-            is_typing: false,
-        })
+            edited: HashMap::new(),
+        }
     }
 
     pub(super) fn is_busy(&self) -> bool {
         let is_drawing = self.studio.is_busy() || self.sweeper.is_busy() || self.results.is_busy();
-        self.lane.is_busy() || self.rested.is_some() || self.scribe.is_busy() || is_drawing
+        self.lane.is_busy() || self.rested.is_some() || self.tag_store.is_busy() || is_drawing
     }
 }

@@ -18,7 +18,7 @@ impl State {
     /// The innermost folder that all open files lie in.
     fn common_folder(&self) -> Option<PathBuf> {
         let mut folders = self
-            .folder
+            .many
             .rows
             .iter()
             .filter_map(|row| row.path.as_deref()?.parent());
@@ -32,7 +32,7 @@ impl State {
     /// The rows of the open files against the chosen reference, with their tags; `None` where one has still
     /// to be evaluated.
     fn result_rows(&self, folder: &Path) -> Option<Vec<Row>> {
-        let rows = self.folder.rows.iter();
+        let rows = self.many.rows.iter();
         rows.filter_map(|row| Some((row, row.path.as_ref()?)))
             .map(|(row, path)| {
                 let outcome = row.outcome.as_ref().filter(|_| !row.is_stale)?;
@@ -40,7 +40,7 @@ impl State {
                     file: Row::name_in(folder, path),
                     tags: row.tagged.tags.join(", "),
                     note: row.tagged.note.clone(),
-                    ..outcome.against(self.folder.against)
+                    ..outcome.against(self.many.against)
                 })
             })
             .collect()
@@ -56,7 +56,7 @@ pub fn evaluate_command_line(state: &State) -> Option<Vec<String>> {
         &folder
     };
     let mut words: Vec<String> = ["axiscope".into(), "evaluate".into(), folder.display().to_string()].into();
-    let truth = match state.folder.against {
+    let truth = match state.many.against {
         TruthChoice::Auto => None,
         TruthChoice::Peduncle => Some("peduncle"),
         TruthChoice::PeduncleDirection => Some("peduncle-direction"),
@@ -68,8 +68,8 @@ pub fn evaluate_command_line(state: &State) -> Option<Vec<String>> {
     }
     words.extend(["--out".into(), FOLDER.into()]);
     words.extend(analysis_options(&state.settings.request));
-    if state.folder.sweep.map.is_some() {
-        let wish = &state.folder.sweep.wish;
+    if state.many.sweep.map.is_some() {
+        let wish = &state.many.sweep.wish;
         let ([from, to], [low, high]) = (wish.u, wish.tau_cm_per_rad);
         words.push("--sweep".into());
         words.push(format!("u={from}..{to}:{}", wish.u_step));
@@ -102,7 +102,7 @@ impl App {
             );
             return;
         };
-        let sweep = &self.state.folder.sweep;
+        let sweep = &self.state.many.sweep;
         let is_whole = !sweep.is_stale && sweep.progress.is_none() && !sweep.wish.only_current;
         let task = Task {
             clouds,
@@ -111,11 +111,11 @@ impl App {
             sweep: sweep.map.as_deref().filter(|_| is_whole).cloned(),
             into,
         };
-        self.folder.results.submit(move |_| save(&task));
+        self.many.results.submit(move |_| save(&task));
     }
 
     pub(super) fn update_results(&mut self) {
-        if let Some((_, result)) = self.folder.results.take() {
+        if let Some(result) = self.many.results.take() {
             let (is_error, text) = match result {
                 Ok(Ok(done)) => (false, done),
                 Ok(Err(problem)) => (true, problem),

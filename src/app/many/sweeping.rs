@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::FolderProgress;
+use super::EvaluationProgress;
 use super::run::{Background, Polite};
 use crate::app::App;
-use crate::app::workers::{JobWatch, Lane, Repaint};
+use crate::app::workers::{JobWatch, Lane, Pool};
 use crate::evaluate::{Outcome, Sweep, SweepSettings, TruthChoice, sweep_cloud};
 use crate::fruit::Request;
 use crate::method::CandidateGrid;
@@ -90,7 +90,7 @@ pub struct SweepState {
     /// Whether it is of other parameters, or against another reference, than those in force.
     pub is_stale: bool,
     /// How far it is; `None` where none is under way.
-    pub progress: Option<FolderProgress>,
+    pub progress: Option<EvaluationProgress>,
 }
 
 impl SweepState {
@@ -120,14 +120,14 @@ pub(super) struct Sweeper {
 }
 
 impl Sweeper {
-    pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
-            lane: Lane::new("sweep", repaint.clone())?,
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
+            lane: Lane::new(pool),
             swept: channel(),
             turn: 0,
             began: Instant::now(),
             of: None,
-        })
+        }
     }
 
     pub(super) fn is_busy(&self) -> bool {
@@ -138,7 +138,7 @@ impl Sweeper {
 impl App {
     /// Begins the sweep that was wished for.
     pub(super) fn sweep(&mut self) {
-        let folder = &mut self.state.folder;
+        let folder = &mut self.state.many;
         let Some(settings) = folder.sweep.wish.settings() else {
             self.say(true, "These ranges of u and τ hold no settings to try.".into());
             return;
@@ -157,14 +157,14 @@ impl App {
             );
             return;
         }
-        let sweeper = &mut self.folder.sweeper;
+        let sweeper = &mut self.many.sweeper;
         sweeper.turn += 1;
         sweeper.began = Instant::now();
         sweeper.of = Some((self.state.settings.request.clone(), folder.against));
         folder.sweep.map = Some(Arc::new(Sweep::new(settings.clone())));
         folder.sweep.clouds = [0, clouds.len()];
         folder.sweep.is_stale = false;
-        folder.sweep.progress = Some(FolderProgress {
+        folder.sweep.progress = Some(EvaluationProgress {
             done: 0,
             total: clouds.len(),
             left: None,
@@ -176,7 +176,7 @@ impl App {
             request: self.state.settings.request.clone(),
             against: folder.against,
         };
-        let (background, crew) = (self.folder.background.clone(), self.folder.crew.clone());
+        let (background, crew) = (self.many.background.clone(), self.many.crew.clone());
         let swept = sweeper.swept.0.clone();
         sweeper
             .lane
@@ -185,22 +185,22 @@ impl App {
 
     /// Calls the sweep off; the map stays as far as it came.
     pub(super) fn cancel_sweep(&mut self) {
-        self.folder.sweeper.lane.cancel();
-        self.state.folder.sweep.progress = None;
+        self.many.sweeper.lane.cancel();
+        self.state.many.sweep.progress = None;
     }
 
     pub(super) fn update_sweep(&mut self) {
-        let is_over = self.folder.sweeper.lane.take();
-        let sweep = &mut self.state.folder.sweep;
-        while let Ok(swept) = self.folder.sweeper.swept.1.try_recv() {
+        let is_over = self.many.sweeper.lane.take();
+        let sweep = &mut self.state.many.sweep;
+        while let Ok(swept) = self.many.sweeper.swept.1.try_recv() {
             let (Some(map), Some(progress)) = (&mut sweep.map, &mut sweep.progress) else {
                 continue;
             };
-            if swept.turn != self.folder.sweeper.turn {
+            if swept.turn != self.many.sweeper.turn {
                 continue;
             }
             progress.done += 1;
-            let each = self.folder.sweeper.began.elapsed().as_secs_f64() / progress.done as f64;
+            let each = self.many.sweeper.began.elapsed().as_secs_f64() / progress.done as f64;
             let left = progress.total.saturating_sub(progress.done);
             progress.left = Some(Duration::from_secs_f64(each * left as f64));
             if let Some(errors_deg) = swept.errors_deg {
@@ -208,15 +208,15 @@ impl App {
                 sweep.clouds[0] += 1;
             }
         }
-        let of = self.folder.sweeper.of.as_ref();
+        let of = self.many.sweeper.of.as_ref();
         sweep.is_stale = of.is_some_and(|(request, against)| {
             // u and τ are what is swept.
             let mut now = self.state.settings.request.clone();
             now.params.u = request.params.u;
             now.params.tau_cm_per_rad = request.params.tau_cm_per_rad;
-            now != *request || self.state.folder.against != *against
+            now != *request || self.state.many.against != *against
         });
-        if let Some((_, result)) = is_over {
+        if let Some(result) = is_over {
             sweep.progress = None;
             if let Err(crash) = result {
                 self.say(

@@ -1,19 +1,21 @@
-//! Tags and notes of clouds: a file in their folder, written by a thread of its own.
+//! Tags and notes of clouds: a file in their folder.
 //!
 //! An edit is shown at once and written behind it: the file is read again, only the edited cloud's part is
 //! changed, and the whole goes aside, onto the disk, and into place. A file that does not parse, or is newer
 //! than this program, is left as it is.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use crate::annotate::DiskFiles;
 use crate::annotate::Files;
-use crate::app::workers::Repaint;
+use crate::app::workers::{Pool, Queue};
+use crate::text::sentence;
 
 /// The file's name in the folder of the clouds.
 pub const TAGS_FILE: &str = "axiscope-tags.json";
@@ -122,13 +124,7 @@ fn write_tags(folder: &Path, name: &str, tagged: &Tagged) -> Result<(), String> 
         })
 }
 
-/// What the thread that writes is asked.
-enum Task {
-    Read(PathBuf),
-    Write { path: PathBuf, tagged: Tagged },
-}
-
-/// What it answers.
+/// What came of a job.
 #[derive(Debug)]
 pub(super) enum Answer {
     /// The folder's tags, by the clouds' names, or what is wrong with them.
@@ -137,92 +133,54 @@ pub(super) enum Answer {
     Written(Result<(), String>),
 }
 
-/// The thread that reads and writes tags, in the order in which that is asked.
-pub(super) struct Scribe {
-    tasks: Option<Sender<Task>>,
-    answers: Receiver<Answer>,
-    thread: Option<std::thread::JoinHandle<()>>,
-    /// Tasks that were not answered yet.
-    open: usize,
+/// The reader and writer of tags, which does everything in the order in which it is asked, and what was asked before
+/// the window closes too.
+pub(super) struct TagStore {
+    queue: Queue<(), Answer>,
+    /// The newest edit of each cloud that is still to be written, by its number.
+    newest: Arc<Mutex<HashMap<PathBuf, u64>>>,
+    edits: u64,
 }
 
-impl Scribe {
-    pub(super) fn new(repaint: Repaint) -> std::io::Result<Self> {
-        let (tasks, todo) = channel();
-        let (done, answers) = channel();
-        let thread = std::thread::Builder::new()
-            .name("tags".into())
-            .spawn(move || work(&todo, &done, &repaint))?;
-        Ok(Self {
-            tasks: Some(tasks),
-            answers,
-            thread: Some(thread),
-            open: 0,
-        })
+impl TagStore {
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
+            queue: Queue::new(pool, ()),
+            newest: Arc::default(),
+            edits: 0,
+        }
     }
 
-    pub(super) fn read(&mut self, folder: PathBuf) {
-        self.ask(Task::Read(folder));
+    pub(super) fn read(&self, folder: PathBuf) {
+        self.queue.submit(|()| {
+            let tags = read_tags(&folder);
+            Answer::Read(folder, tags)
+        });
     }
 
     pub(super) fn write(&mut self, path: PathBuf, tagged: Tagged) {
-        self.ask(Task::Write { path, tagged });
+        self.edits += 1;
+        let (newest, edit) = (self.newest.clone(), self.edits);
+        let mut of_clouds = newest.lock().unwrap_or_else(PoisonError::into_inner);
+        of_clouds.insert(path.clone(), edit);
+        drop(of_clouds);
+        self.queue.submit(move |()| {
+            // Of what is typed, letter by letter, only the newest need go to the disk.
+            let newest = newest.lock().unwrap_or_else(PoisonError::into_inner).get(&path).copied();
+            if newest != Some(edit) {
+                return Answer::Written(Ok(()));
+            }
+            let folder = path.parent().unwrap_or(Path::new(""));
+            Answer::Written(write_tags(folder, &super::run::name_of(&path), &tagged))
+        });
     }
 
-    fn ask(&mut self, task: Task) {
-        if self.tasks.as_ref().is_some_and(|tasks| tasks.send(task).is_ok()) {
-            self.open += 1;
-        }
-    }
-
-    pub(super) fn take(&mut self) -> Option<Answer> {
-        let answer = self.answers.try_recv().ok()?;
-        self.open -= 1;
-        Some(answer)
+    pub(super) fn take(&self) -> Option<Answer> {
+        let (_, answer) = self.queue.take_within(Duration::ZERO)?;
+        Some(answer.unwrap_or_else(|crash| Answer::Written(Err(sentence(&crash.to_string())))))
     }
 
     pub(super) fn is_busy(&self) -> bool {
-        self.open > 0
-    }
-}
-
-impl Drop for Scribe {
-    /// What was asked before the window closes is still written.
-    fn drop(&mut self) {
-        self.tasks = None;
-        if let Some(thread) = self.thread.take() {
-            // A fault of that thread has been told on standard error.
-            let _ = thread.join();
-        }
-    }
-}
-
-fn work(todo: &Receiver<Task>, done: &Sender<Answer>, repaint: &Repaint) {
-    let mut queue = VecDeque::new();
-    loop {
-        let Some(task) = queue.pop_front().or_else(|| todo.recv().ok()) else {
-            return;
-        };
-        queue.extend(todo.try_iter());
-        let answer = match task {
-            Task::Read(folder) => {
-                let tags = read_tags(&folder);
-                Answer::Read(folder, tags)
-            }
-            Task::Write { path, tagged } => {
-                // Of what is typed, letter by letter, only the newest need go to the disk.
-                let is_newer =
-                    |task: &Task| matches!(task, Task::Write { path: other, .. } if *other == path);
-                if queue.iter().any(is_newer) {
-                    Answer::Written(Ok(()))
-                } else {
-                    let folder = path.parent().unwrap_or(Path::new(""));
-                    Answer::Written(write_tags(folder, &super::run::name_of(&path), &tagged))
-                }
-            }
-        };
-        // Nobody listens any more where the window has closed.
-        let _ = done.send(answer);
-        repaint();
+        self.queue.is_busy()
     }
 }

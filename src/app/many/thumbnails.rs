@@ -10,7 +10,7 @@ use super::cache::{Hash, params_hash, read_hash, row_key};
 use super::run::{Background, Polite};
 use crate::annotate::annotation_paths;
 use crate::app::App;
-use crate::app::workers::{JobWatch, Lane, Repaint};
+use crate::app::workers::{JobWatch, Lane, Pool};
 use crate::evaluate::{Outcome, TruthChoice};
 use crate::fruit::{Request, files_behind};
 use crate::parallel::Crew;
@@ -62,9 +62,9 @@ pub(super) struct Studio {
 }
 
 impl Studio {
-    pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
-            lane: Lane::new("thumbnails", repaint.clone())?,
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
+            lane: Lane::new(pool),
             drawn: channel(),
             gpu: Arc::default(),
             wanted: Vec::new(),
@@ -72,7 +72,7 @@ impl Studio {
             turn: 0,
             subject: None,
             order: Vec::new(),
-        })
+        }
     }
 
     pub(super) fn is_busy(&self) -> bool {
@@ -83,23 +83,23 @@ impl Studio {
 impl App {
     /// The clouds that are in sight and want pictures.
     pub(super) fn want_pictures(&mut self, places: &[usize]) {
-        let rows = &self.state.folder.rows;
+        let rows = &self.state.many.rows;
         let path = |&place: &usize| rows.get(place)?.path.clone();
         // More than are kept would push one another out for ever.
         let wanted = places.iter().filter_map(path).take(KEPT_PICTURES);
-        self.folder.studio.wanted = wanted.collect();
+        self.many.studio.wanted = wanted.collect();
     }
 
     pub(super) fn update_pictures(&mut self) {
         self.mark_old_pictures();
-        let is_over = self.folder.studio.lane.take().is_some();
-        while let Ok(drawn) = self.folder.studio.drawn.1.try_recv() {
-            if drawn.turn == self.folder.studio.turn {
+        let is_over = self.many.studio.lane.take().is_some();
+        while let Ok(drawn) = self.many.studio.drawn.1.try_recv() {
+            if drawn.turn == self.many.studio.turn {
                 self.hang(drawn);
             }
         }
         if is_over {
-            self.folder.studio.asked.clear();
+            self.many.studio.asked.clear();
         }
         self.ask_for_pictures();
     }
@@ -107,24 +107,24 @@ impl App {
     fn mark_old_pictures(&mut self) {
         let subject = Subject {
             request: self.state.settings.request.clone(),
-            against: self.state.folder.against,
+            against: self.state.many.against,
             theme: self.state.style.theme,
         };
-        if self.folder.studio.subject.as_ref() == Some(&subject) {
+        if self.many.studio.subject.as_ref() == Some(&subject) {
             return;
         }
-        self.folder.studio.subject = Some(subject);
-        self.folder.studio.lane.cancel();
-        self.folder.studio.asked.clear();
-        self.folder.studio.turn += 1;
-        for picture in Arc::make_mut(&mut self.state.folder.pictures).values_mut() {
+        self.many.studio.subject = Some(subject);
+        self.many.studio.lane.cancel();
+        self.many.studio.asked.clear();
+        self.many.studio.turn += 1;
+        for picture in Arc::make_mut(&mut self.state.many.pictures).values_mut() {
             picture.is_stale = true;
         }
     }
 
     fn hang(&mut self, drawn: Drawn) {
-        let studio = &mut self.folder.studio;
-        let pictures = Arc::make_mut(&mut self.state.folder.pictures);
+        let studio = &mut self.many.studio;
+        let pictures = Arc::make_mut(&mut self.state.many.pictures);
         studio.order.retain(|path| *path != drawn.path);
         studio.order.push(drawn.path.clone());
         let picture = Thumbnail {
@@ -140,9 +140,9 @@ impl App {
     }
 
     fn ask_for_pictures(&mut self) {
-        let pictures = &self.state.folder.pictures;
+        let pictures = &self.state.many.pictures;
         let is_missing = |path: &&PathBuf| pictures.get(*path).is_none_or(|picture| picture.is_stale);
-        let studio = &mut self.folder.studio;
+        let studio = &mut self.many.studio;
         let missing: Vec<PathBuf> = studio.wanted.iter().filter(is_missing).cloned().collect();
         let is_asked = missing.iter().all(|path| studio.asked.contains(path));
         let Some(subject) = studio.subject.clone().filter(|_| !is_asked) else {
@@ -151,7 +151,7 @@ impl App {
         studio.turn += 1;
         studio.asked = missing.iter().cloned().collect();
         let (turn, drawn, gpu) = (studio.turn, studio.drawn.0.clone(), studio.gpu.clone());
-        let (background, crew) = (self.folder.background.clone(), self.folder.crew.clone());
+        let (background, crew) = (self.many.background.clone(), self.many.crew.clone());
         studio.lane.submit(move |watch| {
             let easel = Easel {
                 subject: &subject,

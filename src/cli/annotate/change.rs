@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use axiscope::annotate::{Annotation, Confidence, Ends, EndsError, Finding, Judgment, Method, Pivot};
-use clap::{ArgGroup, Args, ValueEnum};
+use clap::{ArgGroup, Args};
 use glam::DVec3;
 
 use crate::cli::options::{number, position};
@@ -30,7 +30,7 @@ pub(super) struct Change {
     blossom: Option<DVec3>,
     /// Start from an axis that is known; this is recorded
     #[arg(long, value_enum, group = "edit")]
-    start: Option<StartOption>,
+    start: Option<Method>,
     /// Say that the axis cannot be told
     #[arg(long, group = "edit", conflicts_with_all = ["base", "blossom", "start", "flip", "turn", "shift", "lengthen"])]
     cannot_tell: bool,
@@ -48,7 +48,7 @@ pub(super) struct Change {
     lengthen: Option<f64>,
     /// What stays in place when it is turned or lengthened
     #[arg(long, value_enum, default_value = "middle")]
-    hold: HoldOption,
+    hold: Pivot,
     /// How sure you are: 0 to 1, or low, medium, high (0.25, 0.5, 0.75)
     #[arg(long, value_name = "SURE", group = "edit", value_parser = confidence)]
     confidence: Option<Confidence>,
@@ -58,25 +58,6 @@ pub(super) struct Change {
     /// Record that nothing computed was seen
     #[arg(long, requires = "edit")]
     blind: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum StartOption {
-    /// From the peduncle's axis
-    Peduncle,
-    /// From the axis that the method computes
-    Computed,
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, ValueEnum)]
-enum HoldOption {
-    /// Its middle
-    #[default]
-    Middle,
-    /// The peduncle's base
-    Base,
-    /// The blossom end
-    Blossom,
 }
 
 /// A turn by degrees about a direction.
@@ -141,8 +122,7 @@ impl Change {
         let before = current.map(|annotation| annotation.judgment.clone());
         let known = current.and_then(Annotation::ends).copied();
         let (method, mut ends) = match (self.start, self.base, self.blossom) {
-            (Some(StartOption::Peduncle), ..) => (Method::FromPeduncle, Some(start(Method::FromPeduncle)?)),
-            (Some(StartOption::Computed), ..) => (Method::FromComputed, Some(start(Method::FromComputed)?)),
+            (Some(method), ..) => (method, Some(start(method)?)),
             // Both ends anew: this does not follow from what was there.
             (None, Some(base), Some(blossom)) => (Method::ByHand, Some(Ends::new(base, blossom)?)),
             (None, base, blossom) => {
@@ -177,11 +157,6 @@ impl Change {
     }
 
     fn moved(&self, mut ends: Ends, viewpoint: DVec3) -> Result<Ends, EndsError> {
-        let pivot = match self.hold {
-            HoldOption::Middle => Pivot::Middle,
-            HoldOption::Base => Pivot::PeduncleBase,
-            HoldOption::Blossom => Pivot::BlossomEnd,
-        };
         if self.flip {
             ends = ends.flipped();
         }
@@ -192,13 +167,13 @@ impl Change {
                 About::Picture => picture,
                 About::Direction(direction) => direction,
             };
-            ends = ends.turned(about, turn.degrees, pivot)?;
+            ends = ends.turned(about, turn.degrees, self.hold)?;
         }
         if let Some(by) = self.shift {
             ends = ends.shifted(by)?;
         }
         if let Some(by) = self.lengthen {
-            ends = ends.lengthened(by, pivot)?;
+            ends = ends.lengthened(by, self.hold)?;
         }
         Ok(ends)
     }

@@ -49,7 +49,7 @@ pub(super) struct Annotate {
     export: Option<PathBuf>,
     /// In which of Slicer's frames the cloud is loaded there
     #[arg(long, value_enum, default_value = "lps")]
-    slicer_frame: FrameOption,
+    slicer_frame: SlicerFrame,
     /// The cloud is loaded in Slicer as it is, its numbers taken for millimeters, rather than converted
     #[arg(long)]
     slicer_as_is: bool,
@@ -58,14 +58,6 @@ pub(super) struct Annotate {
     format: Format,
     #[command(flatten)]
     analysis: AnalysisOptions,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-enum FrameOption {
-    /// Left, posterior, superior, Slicer's own choice for PLY files
-    Lps,
-    /// Right, anterior, superior
-    Ras,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
@@ -210,10 +202,7 @@ fn follow(
 impl Annotate {
     fn placement(&self) -> Placement {
         Placement {
-            frame: match self.slicer_frame {
-                FrameOption::Lps => SlicerFrame::Lps,
-                FrameOption::Ras => SlicerFrame::Ras,
-            },
+            frame: self.slicer_frame,
             numbers_as_they_are: self.slicer_as_is,
         }
     }

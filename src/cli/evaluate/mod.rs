@@ -12,7 +12,7 @@ use anyhow::Context;
 use axiscope::app::many::{add_tags, read_tags};
 use axiscope::evaluate::{Row, Summary, Sweep, TruthChoice, result_files};
 use axiscope::parallel::{Watch, map_pieces};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::options::AnalysisOptions;
 use super::progress::CountingBar;
@@ -25,7 +25,7 @@ pub(super) struct Evaluate {
     folder: PathBuf,
     /// Which reference the error is measured against
     #[arg(long, value_enum, default_value = "auto")]
-    truth: TruthOption,
+    truth: TruthChoice,
     /// The folder for results.csv, results.parquet, summary.json, report.html and the figures
     #[arg(short, long, value_name = "DIR", default_value = "evaluation")]
     out: PathBuf,
@@ -47,20 +47,6 @@ pub(super) struct Evaluate {
     pictures: usize,
     #[command(flatten)]
     analysis: AnalysisOptions,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum TruthOption {
-    /// The simulator's truth where there is one, else the axis set by hand, else the peduncle
-    Auto,
-    /// The axis from the fruit center through the peduncle (§ 3.2)
-    Peduncle,
-    /// The peduncle's own direction, in which its points are spread most
-    PeduncleDirection,
-    /// The axis set by hand: the adjudicated one, else the mean of the annotators'
-    Manual,
-    /// The axis in NAME.truth.json
-    Truth,
 }
 
 /// One of several equal parts of a list.
@@ -96,14 +82,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     }
     std::fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
     let request = args.analysis.request();
-    let choice = match args.truth {
-        TruthOption::Auto => TruthChoice::Auto,
-        TruthOption::Peduncle => TruthChoice::Peduncle,
-        TruthOption::PeduncleDirection => TruthChoice::PeduncleDirection,
-        TruthOption::Manual => TruthChoice::Manual,
-        TruthOption::Truth => TruthChoice::Truth,
-    };
-    let store = Store::open(&args.out, &request, choice, sweep.as_ref(), args.resume)?;
+    let store = Store::open(&args.out, &request, args.truth, sweep.as_ref(), args.resume)?;
 
     let bar = CountingBar::new("Evaluating", clouds.len());
     let stored = evaluate_all(&args.folder, &clouds, &store, &bar)?;

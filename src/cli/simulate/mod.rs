@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use axiscope::geometry::Unit;
-use axiscope::ply::{self, WriteOptions};
+use axiscope::ply::{self, Encoding, WriteOptions};
 use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, seeds};
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 use glam::DVec3;
 
 use super::options::{Depths, depths, number, pair, position};
@@ -46,28 +46,10 @@ struct Output {
     seed: u64,
     /// Unit of the file's coordinates
     #[arg(long, value_enum, default_value = "cm")]
-    unit: UnitOption,
+    unit: Unit,
     /// How the numbers stand in the file
     #[arg(long, value_enum, default_value = "binary")]
-    encoding: EncodingOption,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum UnitOption {
-    /// Meters
-    M,
-    /// Centimeters
-    Cm,
-    /// Millimeters
-    Mm,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum EncodingOption {
-    /// Binary, little-endian
-    Binary,
-    /// Text
-    Ascii,
+    encoding: Encoding,
 }
 
 #[derive(Debug, Args)]
@@ -211,12 +193,7 @@ fn write_all<S>(
 
 /// Writes `NAME.ply` and `NAME.truth.json`, each whole or not at all.
 fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::Result<()> {
-    let unit = match output.unit {
-        UnitOption::M => Unit::Meter,
-        UnitOption::Cm => Unit::Centimeter,
-        UnitOption::Mm => Unit::Millimeter,
-    };
-    let simulated = simulated.clone().in_unit(unit);
+    let simulated = simulated.clone().in_unit(output.unit);
     let truth = &simulated.truth;
     let comments = [format!(
         "simulated by axiscope {}, seed {}",
@@ -224,12 +201,9 @@ fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::R
     )];
     let mut bytes = Vec::new();
     let options = WriteOptions {
-        unit: Some(unit),
+        unit: Some(output.unit),
         comments: &comments,
-        encoding: match output.encoding {
-            EncodingOption::Binary => ply::Encoding::BinaryLittleEndian,
-            EncodingOption::Ascii => ply::Encoding::Ascii,
-        },
+        encoding: output.encoding,
         ..WriteOptions::default()
     };
     ply::write(&mut bytes, &simulated.cloud, &options)?;

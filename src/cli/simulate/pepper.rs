@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use axiscope::simulate::{FruitColor, PepperSettings, Settings, Truth};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glam::DVec3;
 
 use super::Output;
@@ -46,7 +46,7 @@ pub(super) struct Pepper {
     asymmetry: Option<f64>,
     /// The fruit's color
     #[arg(long, value_enum, help_heading = "Fruit")]
-    color: Option<ColorOption>,
+    color: Option<FruitColor>,
     /// Length of the peduncle, in cm
     #[arg(long, value_name = "CM", help_heading = "Fruit")]
     peduncle_length_cm: Option<f64>,
@@ -96,13 +96,6 @@ pub(super) struct Pepper {
     dropout: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ColorOption {
-    Red,
-    Yellow,
-    Green,
-}
-
 impl Pepper {
     /// The settings that the options make; the seed is the caller's.
     pub(super) fn settings(&self) -> anyhow::Result<PepperSettings> {
@@ -116,7 +109,7 @@ impl Pepper {
         s.lobe_depth = self.lobe_depth.or(s.lobe_depth);
         s.taper = self.taper.or(s.taper);
         s.dimple_cm = self.dimple_cm.or(s.dimple_cm);
-        s.color = self.color.map(Into::into).or(s.color);
+        s.color = self.color.or(s.color);
         s.peduncle_length_cm = self.peduncle_length_cm.or(s.peduncle_length_cm);
         s.peduncle_width_cm = self.peduncle_width_cm.or(s.peduncle_width_cm);
         s.peduncle_bend_deg = self.peduncle_bend_deg.or(s.peduncle_bend_deg);
@@ -143,16 +136,6 @@ impl Pepper {
 fn set<T>(field: &mut T, option: Option<T>) {
     if let Some(value) = option {
         *field = value;
-    }
-}
-
-impl From<ColorOption> for FruitColor {
-    fn from(color: ColorOption) -> Self {
-        match color {
-            ColorOption::Red => Self::Red,
-            ColorOption::Yellow => Self::Yellow,
-            ColorOption::Green => Self::Green,
-        }
     }
 }
 

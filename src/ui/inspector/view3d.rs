@@ -66,7 +66,7 @@ pub(in crate::ui) fn show(
             ViewCallback {
                 view: response.id,
                 scene: state
-                    .annotating
+                    .true_axes
                     .ghost_scene
                     .clone()
                     .or_else(|| state.drawn_scene())
@@ -125,9 +125,9 @@ fn navigate(
     let shift = ui.input(|i| i.modifiers.shift);
     let mut camera = state.camera;
     let is_primary = response.dragged_by(PointerButton::Primary);
-    let is_primary = is_primary && !state.annotating.is_editing;
+    let is_primary = is_primary && !state.true_axes.is_editing;
     // Where the left button sets the axis, the right one turns.
-    let turns = state.annotating.is_editing && response.dragged_by(PointerButton::Secondary) && !shift;
+    let turns = state.true_axes.is_editing && response.dragged_by(PointerButton::Secondary) && !shift;
     let pans = (response.dragged_by(PointerButton::Secondary) && !turns)
         || response.dragged_by(PointerButton::Middle)
         || (is_primary && shift);
@@ -158,7 +158,7 @@ fn navigate(
     if state.tool == Tool::MoveCenter && response.hovered() {
         ui.ctx().set_cursor_icon(CursorIcon::Move);
     }
-    if state.annotating.is_editing {
+    if state.true_axes.is_editing {
         return;
     }
     if let Some(at) = response.interact_pointer_pos() {

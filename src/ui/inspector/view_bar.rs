@@ -2,7 +2,7 @@
 
 use egui::{ComboBox, RichText};
 
-use crate::app::{AnnotateCommand, Command, State};
+use crate::app::{TrueAxesCommand, Command, State};
 use crate::evaluate::TruthChoice;
 use crate::method::AxisSource;
 use crate::ui::window::actions::{Act, Action, Group, coloring_title};
@@ -123,7 +123,7 @@ fn tip(ctx: &egui::Context, action: &Action) -> String {
 
 /// Which reference the error is measured against, where there are several.
 fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
-    if state.references.len() < 2 || state.annotating.is_blind {
+    if state.references.len() < 2 || state.true_axes.is_blind {
         return;
     }
     let name = |source: &AxisSource| -> String {
@@ -147,12 +147,12 @@ fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
                     acts.push(Act::App(match &reference.source {
                         // One annotator's is none of the usual choices.
                         source @ AxisSource::Annotator(_) => {
-                            Command::Annotate(AnnotateCommand::CompareWith(source.clone()))
+                            Command::TrueAxes(TrueAxesCommand::CompareWith(source.clone()))
                         }
                         AxisSource::Simulation => Command::Compare(TruthChoice::Truth),
                         AxisSource::PeduncleDirection => Command::Compare(TruthChoice::PeduncleDirection),
                         AxisSource::Annotators(_) | AxisSource::Adjudicated => {
-                            Command::Annotate(AnnotateCommand::CompareWith(reference.source.clone()))
+                            Command::TrueAxes(TrueAxesCommand::CompareWith(reference.source.clone()))
                         }
                         _ => Command::Compare(TruthChoice::Peduncle),
                     }));

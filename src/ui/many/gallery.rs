@@ -10,7 +10,7 @@ use egui::{
 };
 
 use super::{FolderAnswer, bar};
-use crate::app::many::{FolderCommand, KEPT_PICTURES, THUMBNAIL_PX};
+use crate::app::many::{ManyCommand, KEPT_PICTURES, THUMBNAIL_PX};
 use crate::app::{Command, State};
 use crate::render::Image;
 use crate::ui::widgets::controls::{small, warning_color};
@@ -100,7 +100,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
         }
     });
     if in_sight != seen.in_sight || frame > seen.frame + 1 {
-        commands.push(Command::Folder(FolderCommand::Picture(in_sight.clone())));
+        commands.push(Command::Many(ManyCommand::Picture(in_sight.clone())));
     }
     let seen = Seen {
         current: state.current,
@@ -116,10 +116,10 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 }
 
 fn hint(ui: &mut Ui, state: &State) {
-    let filtered = if state.folder.filter.is_empty() {
+    let filtered = if state.many.filter.is_empty() {
         String::new()
     } else {
-        let (shown, all) = (state.folder.order.len(), state.folder.rows.len());
+        let (shown, all) = (state.many.order.len(), state.many.rows.len());
         format!(" {shown} of {all} clouds, as the table is filtered.")
     };
     let text = format!(
@@ -132,7 +132,7 @@ fn hint(ui: &mut Ui, state: &State) {
 fn hung(ui: &Ui, state: &State) -> Arc<Hung> {
     let id = Id::unique("order of the gallery");
     let kept: Option<Arc<Hung>> = ui.data(|data| data.get_temp(id));
-    let folder = &state.folder;
+    let folder = &state.many;
     if let Some(kept) = kept.filter(|kept| kept.generation == folder.generation) {
         return kept;
     }
@@ -151,11 +151,11 @@ fn hung(ui: &Ui, state: &State) -> Arc<Hung> {
 }
 
 fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: usize) -> Response {
-    let row = &state.folder.rows[place];
+    let row = &state.many.rows[place];
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let response = ui.interact(rect, id.with(place), Sense::click());
     let is_current = state.current == Some(place);
-    let error = row.error_deg(state.folder.against);
+    let error = row.error_deg(state.many.against);
     // The picture is of the parameters in force, the error not yet.
     let before = if row.is_stale { " before" } else { "" };
     let off = error.map(|e| format!("{e:.1}°{before}"));
@@ -170,7 +170,7 @@ fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: us
     let drawn = row
         .path
         .as_ref()
-        .and_then(|path| Some((path, state.folder.pictures.get(path)?)));
+        .and_then(|path| Some((path, state.many.pictures.get(path)?)));
     match drawn.map(|(path, drawn)| (path, &drawn.image, drawn.is_stale)) {
         Some((path, Ok(image), is_stale)) => {
             let texture = texture(ui, path, image);
@@ -211,7 +211,7 @@ fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: us
     let second = if row.tagged.tags.is_empty() {
         // Why a cloud cannot be used stands in place of its picture.
         let usable = row.outcome.as_ref().filter(|o| o.row().sha256.is_some());
-        let failure = usable.and_then(|_| row.failure(state.folder.against));
+        let failure = usable.and_then(|_| row.failure(state.many.against));
         failure.map(crate::text::sentence).unwrap_or_default()
     } else {
         row.tagged.tags.join(", ")

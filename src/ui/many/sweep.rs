@@ -5,7 +5,7 @@ use egui::{
 };
 
 use super::{FolderAnswer, bar};
-use crate::app::many::{FolderCommand, SweepState};
+use crate::app::many::{ManyCommand, SweepState};
 use crate::app::{Command, State};
 use crate::evaluate::Sweep;
 use crate::method::CandidateGrid;
@@ -20,7 +20,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
         return asked;
     }
     wish(ui, state, commands);
-    let sweep = &state.folder.sweep;
+    let sweep = &state.many.sweep;
     let Some(map) = &sweep.map else {
         ui.add_space(8.0);
         hint(
@@ -46,9 +46,9 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 
 /// The ranges, and the button that begins.
 fn wish(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let sweep = &state.folder.sweep;
+    let sweep = &state.many.sweep;
     let mut wish = sweep.wish.clone();
-    let mut say = |command| commands.push(Command::Folder(command));
+    let mut say = |command| commands.push(Command::Many(command));
     ui.horizontal_wrapped(|ui| {
         let of_u = CandidateGrid::MIN_U..=60;
         ui.label("u from");
@@ -85,7 +85,7 @@ fn wish(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 .on_hover_text("Stop. The map stays as far as it came.")
                 .clicked()
             {
-                say(FolderCommand::CancelSweep);
+                say(ManyCommand::CancelSweep);
             }
             bar::progress_bar(ui, progress);
             return;
@@ -97,7 +97,7 @@ fn wish(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         let clouds = if wish.only_current {
             1
         } else {
-            state.folder.order.len()
+            state.many.order.len()
         };
         let noun = if clouds == 1 { "cloud" } else { "clouds" };
         let button = Button::new(format!("Sweep {count} settings over {clouds} {noun}"));
@@ -106,11 +106,11 @@ fn wish(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             .on_hover_text("In the background. Each u is computed once for all its τ.")
             .on_disabled_hover_text("These ranges hold no settings, or too many.");
         if button.clicked() {
-            say(FolderCommand::Sweep);
+            say(ManyCommand::Sweep);
         }
     });
     if wish != sweep.wish {
-        say(FolderCommand::Wish(Box::new(wish)));
+        say(ManyCommand::Wish(Box::new(wish)));
     }
 }
 
@@ -231,7 +231,7 @@ fn draw(ui: &mut Ui, state: &State, map: &Sweep, range: Extremes, commands: &mut
     if let Some((i, j)) = hovered {
         explain(&response, map, i, j);
         if response.clicked() {
-            commands.push(Command::Folder(FolderCommand::OpenSetting {
+            commands.push(Command::Many(ManyCommand::OpenSetting {
                 u: map.settings.u[i],
                 tau_cm_per_rad: map.settings.tau_cm_per_rad[j],
             }));

@@ -8,7 +8,7 @@ use egui::{
 };
 
 use super::{FolderAnswer, bar, filters, tagging};
-use crate::app::many::{Column, FolderCommand, Sort, TableRow};
+use crate::app::many::{Column, ManyCommand, Sort, TableRow};
 use crate::app::{Command, State};
 use crate::ui::widgets::controls::warning_color;
 use crate::ui::widgets::rows::{arrow, into_view};
@@ -88,7 +88,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     Panel::bottom("tags of a cloud")
         .show_separator_line(true)
         .show(ui, |ui| tagging::show(ui, state, commands));
-    if state.folder.rows.is_empty() {
+    if state.many.rows.is_empty() {
         ui.label("No cloud is open. Drop PLY files or a folder on the window.");
         return None;
     }
@@ -104,7 +104,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
             ui.set_width(width + scroll);
             ui.spacing_mut().item_spacing.y = 0.0;
             header(ui, id, width, state, commands);
-            if state.folder.order.is_empty() {
+            if state.many.order.is_empty() {
                 ui.add_space(8.0);
                 ui.label("No cloud passes the filter.");
             } else {
@@ -137,7 +137,7 @@ fn header(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Com
     let font = TextStyle::Body.resolve(ui.style());
     let height = ui.text_style_height(&TextStyle::Body) + 8.0;
     let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-    let sort = state.folder.sort;
+    let sort = state.many.sort;
     for (column, (from, to)) in Column::ALL.into_iter().zip(columns(width, 0.54 * font.size)) {
         let place = Rect::from_min_max(
             pos2(rect.left() + from, rect.top()),
@@ -154,7 +154,7 @@ fn header(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Com
                 by: column,
                 is_descending: is_sorted_by && !sort.is_descending,
             };
-            commands.push(Command::Folder(FolderCommand::Sort(sort)));
+            commands.push(Command::Many(ManyCommand::Sort(sort)));
         }
         if response.hovered() || response.has_focus() {
             let fill = ui.style().interact(&response).weak_bg_fill;
@@ -186,7 +186,7 @@ fn header(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Com
 }
 
 fn body(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
-    let folder = &state.folder;
+    let folder = &state.many;
     let row_height = ui.text_style_height(&TextStyle::Body) + 6.0;
     let seen_id = id.with("seen");
     let seen: Seen = ui.data(|data| data.get_temp(seen_id)).unwrap_or_default();
@@ -271,12 +271,12 @@ fn by_keys(ui: &Ui, keyboard: &Response, commands: &mut Vec<Command>) -> Option<
 }
 
 fn row(ui: &mut Ui, id: Id, size: Vec2, state: &State, place: usize) -> Response {
-    let row = &state.folder.rows[place];
+    let row = &state.many.rows[place];
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let response = ui.interact(rect, id.with(("row", place)), Sense::click());
     let is_current = state.current == Some(place);
     response.widget_info(|| {
-        let error = match row.error_deg(state.folder.against) {
+        let error = match row.error_deg(state.many.against) {
             Some(error) => format!(", {error:.1}° off"),
             None => String::new(),
         };

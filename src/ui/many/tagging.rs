@@ -2,7 +2,7 @@
 
 use egui::{Id, Label, RichText, TextEdit, Ui};
 
-use crate::app::many::{FolderCommand, TableRow, Tagged};
+use crate::app::many::{ManyCommand, TableRow, Tagged};
 use crate::app::{Command, State};
 use crate::ui::widgets::controls::{small, warning_color};
 
@@ -18,7 +18,7 @@ struct Typed {
 /// Shows the fields, and what is known of the cloud.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(place) = state.current else { return };
-    let Some(row) = state.folder.rows.get(place) else {
+    let Some(row) = state.many.rows.get(place) else {
         return;
     };
     ui.add_space(2.0);
@@ -77,7 +77,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 }
 
 fn say(place: usize, tagged: &Tagged, commands: &mut Vec<Command>) {
-    commands.push(Command::Folder(FolderCommand::Tag {
+    commands.push(Command::Many(ManyCommand::Tag {
         place,
         tagged: tagged.clone(),
     }));
@@ -95,9 +95,9 @@ fn about(ui: &mut Ui, state: &State, row: &TableRow) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(&row.name).strong());
         let Some(outcome) = &row.outcome else { return };
-        if let Some(error) = row.error_deg(state.folder.against) {
+        if let Some(error) = row.error_deg(state.many.against) {
             ui.label(format!("{error:.1}° off"));
-        } else if let Some(failure) = row.failure(state.folder.against) {
+        } else if let Some(failure) = row.failure(state.many.against) {
             let text = RichText::new(crate::text::sentence(failure)).color(warning_color(ui));
             ui.add(Label::new(text).truncate());
         }

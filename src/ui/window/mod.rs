@@ -23,7 +23,7 @@ use egui::{CentralPanel, Frame, Panel, ViewportCommand};
 use egui_tiles::Tree;
 
 use super::peduncle;
-use crate::app::many::FolderCommand;
+use crate::app::many::ManyCommand;
 use crate::app::workers::Repaint;
 use crate::app::{App, Command, PeduncleCommand, Session};
 use crate::fruit::companion_path;
@@ -101,7 +101,7 @@ impl Window {
         };
         let layout = start.session.layout.as_deref().and_then(layout_from);
         let (open, current) = (start.session.open.clone(), start.session.current);
-        let folders = start.session.folder.folders().to_vec();
+        let folders = start.session.many.folders().to_vec();
         let plane = start.session.settings.plane;
         let mut app = App::new(start.session, &repaint)?;
         if let Some(problem) = start.problem {
@@ -222,7 +222,7 @@ impl Window {
         peduncle::question(&ctx, self.app.state(), &mut commands);
         true_axes::ask_name(&ctx, self.app.state(), &mut commands);
         self.close(&ctx, &mut commands);
-        let was_editing = self.app.state().annotating.is_editing;
+        let was_editing = self.app.state().true_axes.is_editing;
         for command in commands {
             self.carry_out(&ctx, command);
         }
@@ -232,7 +232,7 @@ impl Window {
                 Act::Window(act) => self.act(&ctx, act),
             }
         }
-        if self.app.state().annotating.is_editing && !was_editing {
+        if self.app.state().true_axes.is_editing && !was_editing {
             self.act(&ctx, WindowAct::Show(Pane::TrueAxis));
         }
     }
@@ -291,7 +291,7 @@ impl Window {
                 Asked::Open(paths) => Command::Open(paths),
                 Asked::SaveImage(path, size_px) => Command::SaveImage { path, size_px },
                 Asked::Peduncle(command) => Command::Peduncle(command),
-                Asked::SaveResults(into) => Command::Folder(FolderCommand::SaveResults(into)),
+                Asked::SaveResults(into) => Command::Many(ManyCommand::SaveResults(into)),
                 Asked::Failed(text) => Command::Say { is_error: true, text },
             }));
         }

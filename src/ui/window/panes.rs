@@ -5,7 +5,7 @@ use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse
 
 use super::actions::{Act, Action, WindowAct};
 use super::layout::Pane;
-use crate::app::{AnnotateCommand, Command, PeduncleCommand, State};
+use crate::app::{TrueAxesCommand, Command, PeduncleCommand, State};
 use crate::render::Viewport;
 use crate::ui::inspector::{view_bar, view3d};
 use crate::ui::many::{self, FolderAnswer};
@@ -77,7 +77,7 @@ impl Panes<'_> {
             view_bar::show(ui, self.state, self.actions, self.acts);
             peduncle::bar(ui, self.state, self.actions, self.acts);
         });
-        if !self.state.annotating.is_blind {
+        if !self.state.true_axes.is_blind {
             Panel::bottom("scrub").show_separator_line(false).show(ui, |ui| {
                 scrub::show(ui, self.state, self.commands);
             });
@@ -86,16 +86,16 @@ impl Panes<'_> {
         let is_in_locked = true_axes::locked_views(ui, self.state, self.is_gpu, self.commands);
         let answer = view3d::show(ui, self.state, self.is_gpu, self.commands);
         *self.viewport = Some(answer.viewport);
-        if self.state.annotating.landing.is_some() && !is_in_locked && !answer.is_hovered {
-            let gone = AnnotateCommand::Hover(None);
-            self.commands.push(Command::Annotate(gone));
+        if self.state.true_axes.landing.is_some() && !is_in_locked && !answer.is_hovered {
+            let gone = TrueAxesCommand::Hover(None);
+            self.commands.push(Command::TrueAxes(gone));
         }
     }
 
     fn panel(&mut self, ui: &mut egui::Ui, pane: Pane) {
         let (state, commands) = (self.state, &mut *self.commands);
         let is_free = matches!(pane, Pane::View | Pane::Files | Pane::Parameters | Pane::TrueAxis);
-        if state.annotating.is_blind && !is_free {
+        if state.true_axes.is_blind && !is_free {
             notice::hidden(ui);
             return;
         }

@@ -2,7 +2,7 @@
 
 use super::{press, settle, snapshot, window_on_peppers};
 use axiscope::app::Command;
-use axiscope::app::many::{FolderCommand, SweepWish};
+use axiscope::app::many::{ManyCommand, SweepWish};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
@@ -17,7 +17,7 @@ fn a_cell_of_the_map_opens_its_setting() {
         tau_step_cm_per_rad: 0.5,
         ..SweepWish::default()
     };
-    super::apply(&mut harness, Command::Folder(FolderCommand::Wish(Box::new(wish))));
+    super::apply(&mut harness, Command::Many(ManyCommand::Wish(Box::new(wish))));
     harness.get_by_label("Sweep 20 settings over 10 clouds").click();
     settle(&mut harness);
     snapshot(&mut harness, "sweep");

@@ -48,7 +48,7 @@ impl Data {
     pub(in crate::ui) fn of(ui: &egui::Ui, state: &State) -> Arc<Self> {
         let id = egui::Id::unique("charts of clouds");
         let kept: Option<Arc<Self>> = ui.data(|data| data.get_temp(id));
-        if let Some(kept) = kept.filter(|kept| kept.generation == state.folder.generation) {
+        if let Some(kept) = kept.filter(|kept| kept.generation == state.many.generation) {
             return kept;
         }
         let made = Arc::new(Self::new(state));
@@ -57,7 +57,7 @@ impl Data {
     }
 
     fn new(state: &State) -> Self {
-        let folder = &state.folder;
+        let folder = &state.many;
         let mut data = Self {
             generation: folder.generation,
             ..Self::default()

@@ -78,8 +78,8 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
             ui.selectable_value(&mut chart, choice, choice.title())
                 .on_hover_text(choice.explained());
         }
-        if !state.folder.filter.is_empty() {
-            let (shown, all) = (state.folder.order.len(), state.folder.rows.len());
+        if !state.many.filter.is_empty() {
+            let (shown, all) = (state.many.order.len(), state.many.rows.len());
             ui.label(
                 RichText::new(format!("{shown} of {all} clouds, as the table is filtered")).font(small(ui)),
             );
@@ -113,9 +113,9 @@ fn failures(ui: &mut Ui, state: &State, data: &Data) -> Option<usize> {
         };
         ui.label(RichText::new(text).font(small(ui)).color(warning_color(ui)));
         for mark in data.failures.iter().take(NAMED) {
-            let row = &state.folder.rows[mark.place];
+            let row = &state.many.rows[mark.place];
             let why = row
-                .failure(state.folder.against)
+                .failure(state.many.against)
                 .unwrap_or("there is no axis to compare with");
             let link = ui.link(RichText::new(&row.name).font(small(ui)));
             if link.on_hover_text(crate::text::sentence(why)).clicked() {
@@ -194,10 +194,10 @@ fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> 
 
 /// Says which cloud is under the cursor.
 fn explain(response: &Response, state: &State, place: usize) {
-    let row = &state.folder.rows[place];
+    let row = &state.many.rows[place];
     let off = match (
-        row.error_deg(state.folder.against),
-        row.failure(state.folder.against),
+        row.error_deg(state.many.against),
+        row.failure(state.many.against),
     ) {
         (Some(error), _) => format!(": {error:.1}° off"),
         (None, Some(why)) => format!(": {why}"),
@@ -258,7 +258,7 @@ fn clouds(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>, stat
     let bar = |mark: &Mark| {
         let color = if current == Some(mark.place) {
             CURRENT
-        } else if state.folder.rows[mark.place].is_stale {
+        } else if state.many.rows[mark.place].is_stale {
             BAR.gamma_multiply(0.45)
         } else {
             BAR

@@ -200,10 +200,10 @@ pub fn actions(state: &State) -> Vec<Action> {
     all.extend(style_actions(state));
     all.extend(window_actions(state));
     all.extend(crate::ui::many::keys::actions(state));
-    if state.annotating.is_editing {
+    if state.true_axes.is_editing {
         give_way(&mut all);
     }
-    if state.annotating.is_blind {
+    if state.true_axes.is_blind {
         for action in &mut all {
             action.is_enabled &= !matches!(&action.act, Act::App(command) if command.reveals());
         }

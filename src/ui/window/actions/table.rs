@@ -192,7 +192,7 @@ pub(in crate::ui) fn view_actions(state: &State) -> Vec<Action> {
 }
 
 pub(in crate::ui) fn style_actions(state: &State) -> Vec<Action> {
-    let (style, is_blind) = (&state.style, state.annotating.is_blind);
+    let (style, is_blind) = (&state.style, state.true_axes.is_blind);
     let mut actions = Vec::new();
     let number = [
         Key::Num1,
