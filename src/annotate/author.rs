@@ -131,7 +131,8 @@ impl Author {
     }
 }
 
-const AXIS_ENDING: &str = ".axis.json";
+/// The ending of the names of axis files.
+pub const AXIS_ENDING: &str = ".axis.json";
 
 /// What a file's name says, where it is one of a cloud's axis files: the slug and the copy.
 pub fn axis_file_of(cloud: &Path, name: &OsStr) -> Option<(String, u32)> {

@@ -4,7 +4,7 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use crate::annotate::Files;
+use super::{Annotation, Files, LONGEST_FILE};
 
 /// The files of one [`crate::annotate::Store`].
 #[derive(Debug, Default)]
@@ -113,6 +113,16 @@ impl Files for DiskFiles {
         drop(File::create(&aside)?);
         std::fs::remove_file(aside)
     }
+}
+
+/// Reads an axis file, whoever's and of whatever cloud it is.
+///
+/// # Errors
+/// Returns the reason, as the end of a sentence, if the file cannot be read or is not an axis file.
+pub fn read_annotation(path: &Path) -> Result<Annotation, String> {
+    let bytes = DiskFiles::default().read(path, LONGEST_FILE);
+    let bytes = bytes.map_err(|error| error.to_string())?.unwrap_or_default();
+    Annotation::from_json(&bytes).map_err(|error| error.to_string())
 }
 
 /// The path with a further ending: for what is written before it is renamed, which nobody else does,

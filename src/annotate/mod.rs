@@ -11,7 +11,6 @@ pub mod exchange;
 mod file;
 mod files;
 mod journal;
-mod listing;
 mod slots;
 mod store;
 
@@ -20,11 +19,10 @@ pub use agreement::{
     mean_axis,
 };
 pub use annotation::{Annotation, CloudId, Confidence, Finding, Judgment, Method};
-pub use author::{Author, NameError, Role, axis_file_of};
-pub use disk::DiskFiles;
+pub use author::{AXIS_ENDING, Author, NameError, Role, axis_file_of};
+pub use disk::{DiskFiles, read_annotation};
 pub use ends::{Ends, EndsError, NUDGES_DEG, Pivot};
 pub use file::{FileError, LONGEST_FILE, now};
 pub use files::{Files, Notice, StoreError};
 pub use journal::{Deed, Journal, JournalError, deed_line, head_line, read_journal};
-pub use listing::{annotation_paths, read_annotations};
 pub use store::Store;

@@ -9,9 +9,7 @@ use std::path::{Path, PathBuf};
 use super::files::failed;
 use super::journal::{Deed, deed_line, head_line};
 use super::slots::{COPIES, axis_of, choose, find_journal, slot};
-use super::{
-    Annotation, Author, CloudId, Files, Judgment, LONGEST_FILE, Method, Notice, StoreError,
-};
+use super::{Annotation, Author, CloudId, Files, Judgment, LONGEST_FILE, Method, Notice, StoreError};
 use crate::geometry::Unit;
 use crate::undo::History;
 

@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use axiscope::annotate::exchange::{ImportedRow, read_table, write_table};
-use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement};
-use axiscope::annotate::{annotation_paths, now, read_annotations};
+use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement, now};
 use axiscope::evaluate::Row;
-use axiscope::fruit::{Fruit, PeduncleChoice, read_cloud};
+use axiscope::fruit::{AxisFiles, Fruit, PeduncleChoice, read_annotations, read_cloud};
 use axiscope::geometry::Unit;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -61,17 +60,18 @@ pub(super) fn run(args: &Annotations) -> anyhow::Result<()> {
     if let Some(table) = &args.import {
         import(args, table, &clouds)?;
     }
-    let (mut annotated, mut warnings) = (Vec::new(), Vec::new());
+    let (mut files, mut annotated, mut warnings) = (AxisFiles::default(), Vec::new(), Vec::new());
     for path in &clouds {
         let name = Row::name_in(&args.folder, path);
         // Reading a cloud takes longer than knowing that nobody has said anything of it.
-        if annotation_paths(path).is_empty() {
+        let files = files.of(path);
+        if files.is_empty() {
             annotated.push((name, Vec::new()));
             continue;
         }
         match read_cloud(path) {
             Ok(file) => {
-                let (annotations, unusable) = read_annotations(path, &file.sha256);
+                let (annotations, unusable) = read_annotations(&files, &file.sha256);
                 warnings.extend(unusable);
                 annotated.push((name, annotations));
             }

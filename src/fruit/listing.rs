@@ -1,16 +1,15 @@
-//! The clouds of a folder and the files beside them.
+//! The listing of the clouds of a folder and of the files beside them.
 
-use std::collections::HashMap;
-use std::ffi::OsString;
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use super::{PeduncleChoice, Request, companion_path, removed_path, truth_path};
-use crate::annotate::axis_file_of;
+use crate::annotate::{AXIS_ENDING, Annotation, axis_file_of, read_annotation};
 
-/// Every cloud in the folder, by name. A companion that holds a peduncle alone is no cloud of its own.
+/// Returns every cloud in a folder, by name. A companion file that holds a peduncle alone is not a cloud of its own.
 ///
 /// # Errors
-/// Where the folder cannot be read.
+/// Returns an error if the folder cannot be read.
 pub fn clouds_in(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut clouds = Vec::new();
     for entry in std::fs::read_dir(folder)? {
@@ -23,56 +22,100 @@ pub fn clouds_in(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
         }
     }
     clouds.sort();
-    let companions: std::collections::HashSet<PathBuf> =
-        clouds.iter().map(|path| companion_path(path)).collect();
+    let companions: HashSet<PathBuf> = clouds.iter().map(|path| companion_path(path)).collect();
     clouds.retain(|path| !companions.contains(path));
     Ok(clouds)
 }
 
-/// The annotators' files of each of the clouds of one folder, which is read once for all of them.
-pub fn annotations_in(folder: &Path, clouds: &[PathBuf]) -> HashMap<PathBuf, Vec<PathBuf>> {
-    let folder = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return HashMap::new();
-    };
-    let is_axis = |name: &OsString| name.to_string_lossy().ends_with(".axis.json");
-    let names: Vec<OsString> = entries
-        .filter_map(|entry| Some(entry.ok()?.file_name()))
-        .filter(is_axis)
-        .collect();
-    if names.is_empty() {
-        return HashMap::new();
+/// An axis file beside a cloud, as its name describes it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AxisFile {
+    /// The path of the file.
+    pub path: PathBuf,
+    /// The author's part of the name, [`crate::annotate::Author::slug`].
+    pub slug: String,
+    /// The number of the copy, from 1.
+    pub copy: u32,
+}
+
+/// The axis files in folders of clouds. Each folder is read once, when one of its clouds is first asked about.
+#[derive(Debug, Default)]
+pub struct AxisFiles {
+    /// The sorted names of every folder's axis files.
+    names: HashMap<PathBuf, Vec<String>>,
+}
+
+impl AxisFiles {
+    /// The axis files of a cloud, `CLOUD.NAME.axis.json` and further copies, in the order of their names, unusable ones
+    /// among them. There are none where the folder cannot be read.
+    pub fn of(&mut self, cloud: &Path) -> Vec<AxisFile> {
+        let Some(stem) = cloud.file_stem().and_then(|stem| stem.to_str()) else {
+            return Vec::new();
+        };
+        let folder = cloud.parent().unwrap_or(Path::new(""));
+        if !self.names.contains_key(folder) {
+            self.names.insert(folder.to_owned(), axis_file_names(folder));
+        }
+        let names = &self.names[folder];
+        // Names with the same beginning stand together in a sorted list.
+        let prefix = format!("{stem}.");
+        let first = names.partition_point(|name| *name < prefix);
+        let of_stem = names[first..].iter().take_while(|name| name.starts_with(&prefix));
+        let of_cloud = of_stem.filter_map(|name| {
+            let (slug, copy) = axis_file_of(cloud, name.as_ref())?;
+            let path = cloud.with_file_name(name);
+            Some(AxisFile { path, slug, copy })
+        });
+        of_cloud.collect()
     }
-    // A cloud's axis files begin with its stem and a dot.
-    let mut by_stem: HashMap<String, Vec<&PathBuf>> = HashMap::new();
-    for cloud in clouds {
-        let stem = cloud.file_stem().unwrap_or_default().to_string_lossy();
-        by_stem.entry(stem.into_owned()).or_default().push(cloud);
-    }
-    let mut found: HashMap<PathBuf, Vec<PathBuf>> = HashMap::new();
-    for name in names {
-        let text = name.to_string_lossy();
-        for (dot, _) in text.match_indices('.') {
-            for cloud in by_stem.get(&text[..dot]).into_iter().flatten() {
-                if axis_file_of(cloud, &name).is_some() {
-                    let paths = found.entry((*cloud).clone()).or_default();
-                    paths.push(cloud.with_file_name(&name));
+}
+
+fn axis_file_names(folder: &Path) -> Vec<String> {
+    let is_here = folder.as_os_str().is_empty();
+    let entries = std::fs::read_dir(if is_here { Path::new(".") } else { folder });
+    let names = entries
+        .into_iter()
+        .flatten()
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut names: Vec<String> = names.filter(|name| name.ends_with(AXIS_ENDING)).collect();
+    names.sort();
+    names
+}
+
+/// The paths of a cloud's axis files, as [`AxisFiles::of`] lists them.
+pub fn annotation_paths(cloud: &Path) -> Vec<PathBuf> {
+    let files = AxisFiles::default().of(cloud).into_iter();
+    files.map(|file| file.path).collect()
+}
+
+/// Reads a cloud's annotations: one an annotator, by name, then the adjudicator's; and a sentence about each axis file
+/// that cannot be used. Of an annotator's copies the last counts. `sha256` is the hash of the cloud.
+pub fn read_annotations(files: &[AxisFile], sha256: &str) -> (Vec<Annotation>, Vec<String>) {
+    let (mut newest, mut warnings) = (BTreeMap::new(), Vec::new());
+    for AxisFile { path, copy, .. } in files {
+        match read_annotation(path) {
+            Ok(annotation) if annotation.cloud.sha256 == sha256 => {
+                let whose = (annotation.role as u8, annotation.annotator.clone());
+                if newest.get(&whose).is_none_or(|(before, _)| copy > before) {
+                    newest.insert(whose, (*copy, annotation));
                 }
+            }
+            read => {
+                let why = read
+                    .err()
+                    .unwrap_or_else(|| "it belongs to another cloud, or the cloud has changed".into());
+                warnings.push(format!("{}: this axis is not used: {why}.", path.display()));
             }
         }
     }
-    for paths in found.values_mut() {
-        paths.sort();
-    }
-    found
+    (
+        newest.into_values().map(|(_, annotation)| annotation).collect(),
+        warnings,
+    )
 }
 
-/// The files whose bytes a cloud's row follows from, the cloud's own first; some may not exist.
-/// `annotations` are those of its annotators.
+/// Returns the files that the results for a cloud depend on, the cloud's own first; some may not exist. `annotations` are
+/// its axis files.
 pub fn files_behind(path: &Path, request: &Request, annotations: &[PathBuf]) -> Vec<PathBuf> {
     let mut files = vec![path.to_path_buf(), companion_path(path), truth_path(path)];
     match &request.peduncle {

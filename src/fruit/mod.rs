@@ -15,7 +15,7 @@ pub use cloud_file::{
     CloudFile, ReadError, ReadErrorKind, parse_cloud, parse_cloud_watched, read_cloud, read_cloud_watched,
     sha256_hex,
 };
-pub use listing::{annotations_in, clouds_in, files_behind};
+pub use listing::{AxisFile, AxisFiles, annotation_paths, clouds_in, files_behind, read_annotations};
 pub use picked::PickedPoints;
 pub use read::{Fruit, FruitError, PeduncleChoice, companion_path, removed_path, truth_path};
 pub use request::Request;

@@ -12,7 +12,7 @@ use super::cache::{Cache, Hash, params_hash, read_hash, row_key};
 use crate::app::workers::JobWatch;
 use crate::evaluate::Outcome;
 use crate::fruit::ReadErrorKind;
-use crate::fruit::{Request, annotations_in, files_behind};
+use crate::fruit::{AxisFiles, Request, files_behind};
 use crate::method::Observe;
 use crate::parallel::{Crew, Watch};
 
@@ -113,14 +113,12 @@ pub(super) fn run(
 
 /// The annotators' files of all clouds, each folder read once.
 pub(super) fn annotations_of(clouds: &[PathBuf]) -> HashMap<PathBuf, Vec<PathBuf>> {
-    let mut by_folder: HashMap<&Path, Vec<PathBuf>> = HashMap::new();
-    for cloud in clouds {
-        let folder = cloud.parent().unwrap_or(Path::new(""));
-        by_folder.entry(folder).or_default().push(cloud.clone());
-    }
-    let each = by_folder.into_iter();
-    each.flat_map(|(folder, clouds)| annotations_in(folder, &clouds))
-        .collect()
+    let mut files = AxisFiles::default();
+    let mut of = |cloud: &PathBuf| {
+        let paths: Vec<PathBuf> = files.of(cloud).into_iter().map(|file| file.path).collect();
+        (!paths.is_empty()).then(|| (cloud.clone(), paths))
+    };
+    clouds.iter().filter_map(&mut of).collect()
 }
 
 /// One cloud; `None` where the work was called off.

@@ -8,10 +8,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::cache::{Hash, params_hash, read_hash, row_key};
 use super::run::{Background, Polite};
-use crate::annotate::annotation_paths;
 use crate::app::App;
 use crate::app::workers::{JobWatch, Lane, Pool};
 use crate::evaluate::{Outcome, TruthChoice};
+use crate::fruit::annotation_paths;
 use crate::fruit::{Request, files_behind};
 use crate::parallel::Crew;
 use crate::render::Image;

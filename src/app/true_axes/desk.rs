@@ -3,8 +3,9 @@
 
 use std::path::PathBuf;
 
+use crate::annotate::DiskFiles;
 use crate::annotate::{Annotation, Author, CloudId, Judgment, Store, StoreError, now};
-use crate::annotate::{DiskFiles, read_annotations};
+use crate::fruit::{AxisFiles, read_annotations};
 use crate::geometry::Unit;
 use crate::undo::History;
 
@@ -192,7 +193,7 @@ impl Keeper {
         let (mut annotations, mut notices) = self
             .place
             .as_ref()
-            .map(|place| read_annotations(&place.path, &place.cloud.sha256))
+            .map(|place| read_annotations(&AxisFiles::default().of(&place.path), &place.cloud.sha256))
             .unwrap_or_default();
         annotations.sort_by(|a, b| (a.role as u8, &a.annotator).cmp(&(b.role as u8, &b.annotator)));
         let current = self.current().map(|desk| {

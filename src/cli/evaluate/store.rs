@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use anyhow::Context;
-use axiscope::annotate::annotation_paths;
 use axiscope::evaluate::{Outcome, Row, SweepSettings, TruthChoice, sweep_cloud};
+use axiscope::fruit::annotation_paths;
 use axiscope::fruit::sha256_hex;
 use axiscope::fruit::{Request, files_behind};
 use axiscope::text::sentence;
