@@ -6,15 +6,6 @@ use super::{Author, Ends, Role};
 use crate::geometry::Unit;
 use crate::method::{AxisEstimate, AxisSource};
 
-/// The axis, or that it cannot be told.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Finding {
-    /// Both ends.
-    Axis(Ends),
-    /// The cloud does not show it.
-    CannotTell,
-}
-
 /// Where the annotator began. An axis that was shown first draws the hand that follows it, so it is
 /// recorded for good: nudging a computed axis does not make it one set by hand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -73,8 +64,8 @@ impl Confidence {
 /// What an annotator decides; the rest of an [`Annotation`] is bookkeeping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgment {
-    /// The axis, or that it cannot be told.
-    pub finding: Finding,
+    /// The axis; `None` if the cloud does not show it.
+    pub ends: Option<Ends>,
     /// Where the annotator began.
     pub method: Method,
     /// How sure the annotator is, where that was said.
@@ -89,17 +80,17 @@ pub struct Judgment {
 impl Judgment {
     /// An axis set by hand, with nothing else said.
     pub fn by_hand(ends: Ends) -> Self {
-        Self::bare(Finding::Axis(ends))
+        Self::bare(Some(ends))
     }
 
     /// That the axis cannot be told, with nothing else said.
     pub fn cannot_tell() -> Self {
-        Self::bare(Finding::CannotTell)
+        Self::bare(None)
     }
 
-    fn bare(finding: Finding) -> Self {
+    fn bare(ends: Option<Ends>) -> Self {
         Self {
-            finding,
+            ends,
             method: Method::ByHand,
             confidence: None,
             note: String::new(),
@@ -142,10 +133,7 @@ pub struct Annotation {
 impl Annotation {
     /// The axis, unless it cannot be told.
     pub fn ends(&self) -> Option<&Ends> {
-        match &self.judgment.finding {
-            Finding::Axis(ends) => Some(ends),
-            Finding::CannotTell => None,
-        }
+        self.judgment.ends.as_ref()
     }
 
     /// Whether it is this author's.

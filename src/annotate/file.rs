@@ -5,7 +5,7 @@ use glam::DVec3;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Annotation, CloudId, Confidence, Ends, EndsError, Finding, Judgment, Method, Role};
+use super::{Annotation, CloudId, Confidence, Ends, EndsError, Judgment, Method, Role};
 use crate::geometry::{Unit, angle_between_directions_rad};
 
 /// The name of the format, without its version.
@@ -105,16 +105,12 @@ impl Annotation {
 
     fn fields(&self) -> Fields {
         let Judgment {
-            finding,
+            ends,
             method,
             confidence,
             note,
             blind,
         } = self.judgment.clone();
-        let ends = match finding {
-            Finding::Axis(ends) => Some(ends),
-            Finding::CannotTell => None,
-        };
         Fields {
             schema: format!("{FORMAT}{VERSION}"),
             program: self.program.clone(),
@@ -144,17 +140,17 @@ impl TryFrom<Fields> for Annotation {
     type Error = FileError;
 
     fn try_from(fields: Fields) -> Result<Self, FileError> {
-        let finding = match (fields.cannot_tell, fields.peduncle_base, fields.blossom_end) {
-            (false, Some(base), Some(blossom)) => Finding::Axis(Ends::new(base, blossom)?),
-            (true, None, None) => Finding::CannotTell,
+        let ends = match (fields.cannot_tell, fields.peduncle_base, fields.blossom_end) {
+            (false, Some(base), Some(blossom)) => Some(Ends::new(base, blossom)?),
+            (true, None, None) => None,
             (true, ..) => return Err(FileError::Contradiction("it has an end, and none can be told")),
             (false, ..) => return Err(FileError::Contradiction("an end is missing")),
         };
-        let agrees = match (&finding, fields.direction) {
-            (Finding::Axis(ends), Some(direction)) => {
+        let agrees = match (&ends, fields.direction) {
+            (Some(ends), Some(direction)) => {
                 angle_between_directions_rad(ends.direction(), direction) < SAME_DIRECTION_RAD
             }
-            (Finding::CannotTell, None) => true,
+            (None, None) => true,
             _ => false,
         };
         if !agrees {
@@ -176,7 +172,7 @@ impl TryFrom<Fields> for Annotation {
             annotator: fields.annotator,
             role: fields.role,
             judgment: Judgment {
-                finding,
+                ends,
                 method: fields.method,
                 confidence,
                 note: fields.note,

@@ -18,7 +18,7 @@ pub use agreement::{
     AnnotatorSummary, CloudAgreement, FAR_OFF_DEG, MeanAxis, Pair, PairSummary, SetAgreement, estimates,
     mean_axis,
 };
-pub use annotation::{Annotation, CloudId, Confidence, Finding, Judgment, Method};
+pub use annotation::{Annotation, CloudId, Confidence, Judgment, Method};
 pub use author::{AXIS_ENDING, Author, NameError, Role, axis_file_of};
 pub use disk::{DiskFiles, read_annotation};
 pub use ends::{Ends, EndsError, NUDGES_DEG, Pivot};

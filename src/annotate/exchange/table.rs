@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::annotate::{Annotation, Confidence, Ends, Finding, Judgment, Method, Role};
+use crate::annotate::{Annotation, Confidence, Ends, Judgment, Method, Role};
 use crate::geometry::Unit;
 
 /// Why a table is not understood.
@@ -79,11 +79,11 @@ impl ImportedRow {
     /// Where the conversion leaves no axis.
     pub fn in_unit(&self, unit: Unit) -> Result<Judgment, crate::annotate::EndsError> {
         let mut judgment = self.judgment.clone();
-        if let (Finding::Axis(ends), Some(own)) = (judgment.finding, self.unit)
+        if let (Some(ends), Some(own)) = (judgment.ends, self.unit)
             && own != unit
         {
             let scale = own.in_cm() / unit.in_cm();
-            judgment.finding = Finding::Axis(Ends::new(
+            judgment.ends = Some(Ends::new(
                 ends.peduncle_base() * scale,
                 ends.blossom_end() * scale,
             )?);
@@ -156,11 +156,11 @@ fn imported(fields: Fields) -> Result<ImportedRow, String> {
         fields.peduncle_base_z,
     );
     let blossom = point(fields.blossom_end_x, fields.blossom_end_y, fields.blossom_end_z);
-    let finding = match (base, blossom, fields.cannot_tell.unwrap_or(false)) {
+    let ends = match (base, blossom, fields.cannot_tell.unwrap_or(false)) {
         (Some(base), Some(blossom), false) => {
-            Finding::Axis(Ends::new(base, blossom).map_err(|error| error.to_string())?)
+            Some(Ends::new(base, blossom).map_err(|error| error.to_string())?)
         }
-        (None, None, true) => Finding::CannotTell,
+        (None, None, true) => None,
         (_, _, true) => return Err("it has an end, and says that none can be told".into()),
         (_, _, false) => return Err("an end is missing, and it does not say that none can be told".into()),
     };
@@ -175,7 +175,7 @@ fn imported(fields: Fields) -> Result<ImportedRow, String> {
         role: fields.role.unwrap_or(Role::Annotator),
         unit: fields.unit,
         judgment: Judgment {
-            finding,
+            ends,
             method: fields.method.unwrap_or(Method::Imported),
             confidence,
             note: fields.note.unwrap_or_default(),

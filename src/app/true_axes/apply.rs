@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::desk::Deed;
 use super::{TrueAxesCommand, Decision, Draft, Ghost, Grab, Handle, Saving, Turn};
-use crate::annotate::{Annotation, Ends, EndsError, Finding, Judgment, Method, Role, mean_axis};
+use crate::annotate::{Annotation, Ends, EndsError, Judgment, Method, Role, mean_axis};
 use crate::app::App;
 use crate::evaluate::start_axis;
 use crate::render::Projection;
@@ -240,7 +240,7 @@ impl App {
         let before = self.state.true_axes.judgment().cloned();
         let before = before.unwrap_or_else(|| Judgment::by_hand(ends));
         self.edit(Judgment {
-            finding: Finding::Axis(ends),
+            ends: Some(ends),
             ..before
         });
     }

@@ -21,7 +21,7 @@ use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use crate::annotate::{
-    Annotation, Author, CloudAgreement, CloudId, Ends, Finding, Judgment, NUDGES_DEG, NameError, Pivot, Role,
+    Annotation, Author, CloudAgreement, CloudId, Ends, Judgment, NUDGES_DEG, NameError, Pivot, Role,
 };
 use crate::geometry::{Extent, Unit};
 use crate::method::AxisSource;
@@ -265,10 +265,7 @@ impl TrueAxesState {
 
     /// The axis that counts; `None` where none is set, or it cannot be told.
     pub fn set_ends(&self) -> Option<Ends> {
-        match self.judgment()?.finding {
-            Finding::Axis(ends) => Some(ends),
-            Finding::CannotTell => None,
-        }
+        self.judgment()?.ends
     }
 
     /// The axis as it is to be drawn, while it is dragged too.

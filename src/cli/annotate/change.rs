@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use axiscope::annotate::{Annotation, Confidence, Ends, EndsError, Finding, Judgment, Method, Pivot};
+use axiscope::annotate::{Annotation, Confidence, Ends, EndsError, Judgment, Method, Pivot};
 use clap::{ArgGroup, Args};
 use glam::DVec3;
 
@@ -140,15 +140,14 @@ impl Change {
         if self.flip || !self.turn.is_empty() || self.shift.is_some() || self.lengthen.is_some() {
             ends = Some(self.moved(ends.ok_or_else(no_axis)?, viewpoint)?);
         }
-        let finding = match ends {
-            _ if self.cannot_tell => Finding::CannotTell,
-            Some(ends) => Finding::Axis(ends),
-            None if before.is_some() => Finding::CannotTell,
-            None => return Err(no_axis()),
-        };
+        if self.cannot_tell {
+            ends = None;
+        } else if ends.is_none() && before.is_none() {
+            return Err(no_axis());
+        }
         let (confidence, note) = before.map_or((None, String::new()), |b| (b.confidence, b.note));
         Ok(Judgment {
-            finding,
+            ends,
             method: if self.cannot_tell { Method::ByHand } else { method },
             confidence: self.confidence.or(confidence),
             note: self.note.clone().unwrap_or(note),

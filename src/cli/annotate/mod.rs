@@ -10,7 +10,7 @@ use anyhow::Context;
 use axiscope::annotate::DiskFiles;
 use axiscope::annotate::exchange::{Placement, SlicerFrame, place, read_lines, write_line};
 use axiscope::annotate::{
-    Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError, now,
+    Annotation, Author, CloudId, Ends, Judgment, Method, Role, Store, StoreError, now,
 };
 use axiscope::evaluate::{Examined, examine, start_axis};
 use axiscope::fruit::Fruit;
@@ -240,9 +240,9 @@ fn write_text(out: &mut impl Write, store: &Store) -> std::io::Result<()> {
         return row("Axis", "none yet");
     };
     let judgment = &annotation.judgment;
-    match judgment.finding {
-        Finding::CannotTell => row("Axis", "cannot be told")?,
-        Finding::Axis(ends) => {
+    match judgment.ends {
+        None => row("Axis", "cannot be told")?,
+        Some(ends) => {
             let unit = annotation.unit;
             row("Peduncle base", &format!("{:.4} {unit}", ends.peduncle_base()))?;
             row("Blossom end", &format!("{:.4} {unit}", ends.blossom_end()))?;
