@@ -26,26 +26,25 @@ use std::time::Duration;
 
 use glam::DVec2;
 
+use crate::evaluate::Tagged;
 use crate::geometry::Extent;
 use crate::method::{AxisEstimate, PlaneDetail};
 use crate::parallel::Cancelled;
 use crate::render::{Camera, Viewport};
 use crate::text::sentence;
 use crate::undo::History;
-use crate::view::ShownPoints;
+use crate::view::{ShownPoints, Style};
 
 use inspector::details::Details;
-use inspector::look::{Look, Style};
+use inspector::look::Look;
 use inspector::stages::{Stages, WalkError};
-use many::{Many, ManyState, Tagged};
+use many::{Many, ManyState};
 use workers::{Lane, Pool, Repaint};
 
-pub use inspector::command_line::{analysis_options, command_line, quoted};
-#[cfg(feature = "window")]
-pub use inspector::drawing::{Drawing, DrawingError, draw as draw_cloud};
+pub use inspector::command_line::{command_line, quoted};
+pub use inspector::image::page;
 pub use inspector::navigate::{default_camera, dragged};
 pub use inspector::stages::{Source, Walked};
-pub use inspector::written::Written;
 pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::state::{Settings, State};
-use crate::app::inspector::look::Style;
 use crate::app::inspector::stages::Source;
 use crate::app::true_axes::KeptTrueAxes;
+use crate::view::Style;
 use crate::view::{Coloring, Overlays, Theme};
 
 /// Settings, what was open, and how it was shown.

@@ -9,25 +9,24 @@ use serde::{Deserialize, Serialize};
 
 use super::peduncle::{PeduncleCommand, PeduncleState};
 use super::samples::Sample;
-use crate::app::inspector::look::{Look, Style};
+use crate::app::inspector::look::Look;
 use crate::app::inspector::stages::{Source, Walked};
 use crate::app::many::{ManyCommand, ManyState};
-use crate::app::true_axes::{TrueAxesCommand, TrueAxesState, KeptTrueAxes};
+use crate::app::true_axes::{KeptTrueAxes, TrueAxesCommand, TrueAxesState};
 use crate::app::workers::Progress;
 use crate::evaluate::reference_of;
-use crate::fruit::PeduncleChoice;
 use crate::fruit::Request;
-use crate::geometry::Unit;
 use crate::method::{Analysis, AxisEstimate, Params, PlaneDetail, PointDetail, Preset};
 use crate::render::{Camera, Projection, Viewport};
-use crate::view::{ShownPoints, Theme, ViewPreset};
+use crate::view::{ShownPoints, Style, Theme, ViewPreset};
 
 pub use crate::evaluate::TruthChoice;
 
 /// Which candidate plane is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum PlaneChoice {
     /// The one with the lowest score, whichever it is.
+    #[default]
     Best,
     /// The one at step g, h of the grid, each from 1.
     At {
@@ -39,27 +38,12 @@ pub enum PlaneChoice {
 }
 
 /// What undo and redo bring back.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// How clouds are analyzed.
     pub request: Request,
     /// The plane that is looked at.
     pub plane: PlaneChoice,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            request: Request {
-                unit: None,
-                peduncle: PeduncleChoice::Auto,
-                without_peduncle: false,
-                normals: None,
-                params: Params::new(Preset::AsIntended, Unit::Centimeter),
-            },
-            plane: PlaneChoice::Best,
-        }
-    }
 }
 
 /// One cloud of the list.

@@ -1,9 +1,8 @@
-//! What of a picture can be asked for on the command line.
+//! The command-line options of a picture.
 
-use axiscope::app::Drawing;
 use axiscope::evaluate::TruthChoice;
 use axiscope::render::{Camera, Projection};
-use axiscope::view::{Coloring, Overlays, Theme, ViewPreset};
+use axiscope::view::{Coloring, Drawing, Overlays, Style, Theme, ViewPreset};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
@@ -12,61 +11,62 @@ use super::options::positive;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Picture")]
 pub(super) struct Picture {
-    /// Pixels, from 1x1 to 16384x16384
+    /// Width and height in pixels, from 1x1 to 16384x16384
     #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = size)]
     pub(super) size: [u32; 2],
-    /// What the points' colors show
+    /// Meaning of the points' colors
     #[arg(long, value_enum, default_value = "side")]
     pub(super) color: Coloring,
-    /// The plane to look at: best, or its G,H
+    /// Plane to show: best, or its G,H
     #[arg(long, value_name = "PLANE", default_value = "best", value_parser = plane_choice)]
     pub(super) plane: OrBest<[usize; 2]>,
-    /// Where to look from
+    /// Direction of the view
     #[arg(long, value_enum, default_value = "camera")]
     pub(super) view: ViewPreset,
-    /// The very camera, as the window writes it into pictures and command lines; --view is then not looked at
+    /// Exact camera, as the window writes it into pictures and command lines; overrides --view
     #[arg(long, value_name = "JSON", value_parser = camera)]
     pub(super) camera: Option<Camera>,
     /// The axis that the computed one is compared with; without one of this kind, the first there is
     #[arg(long, default_value = "peduncle", value_parser = reference())]
     pub(super) reference: TruthChoice,
-    /// What is drawn over the points: all, none, or names with commas between them [default:
+    /// Overlays on the points: all, none, or names with commas between them [default:
     /// plane,center,axis,reference,legend,scale,triad,caption; others: normal,viewpoint,ghost,partners,normals]
     #[arg(long, value_name = "LIST", value_parser = str::parse::<Overlays>)]
     pub(super) overlays: Option<Overlays>,
-    /// Light on dark, or dark on light
+    /// Background of the picture
     #[arg(long, value_enum, default_value = "dark")]
     pub(super) background: Theme,
-    /// A point's diameter in pixels [default: by the number of points and pixels]
+    /// Diameter of a point in pixels [default: by the number of points and pixels]
     #[arg(long, value_name = "PX", value_parser = point_size, allow_negative_numbers = true)]
     pub(super) point_size: Option<f64>,
-    /// Parallel lines stay parallel
+    /// Use an orthographic projection: parallel lines stay parallel
     #[arg(long)]
     pub(super) orthographic: bool,
-    /// No shading by depth
+    /// Leave out the shading of steps in depth
     #[arg(long)]
     pub(super) flat: bool,
 }
 
 impl Picture {
-    /// What these options ask for.
+    /// The settings of the picture.
     pub(super) fn drawing(&self) -> Drawing {
         Drawing {
             size_px: self.size,
-            coloring: self.color,
+            style: Style {
+                coloring: self.color,
+                overlays: self.overlays.clone().unwrap_or_default(),
+                theme: self.background,
+                point_size: self.point_size.map(|px| px as f32),
+                eye_dome: !self.flat,
+            },
             plane: self.plane,
             view: self.view,
             camera: self.camera,
-            reference: self.reference,
-            overlays: self.overlays.clone().unwrap_or_default(),
-            theme: self.background,
-            point_size_px: self.point_size,
             projection: if self.orthographic {
                 Projection::Orthographic
             } else {
                 Projection::Perspective
             },
-            is_shaded: !self.flat,
             has_angle: true,
         }
     }

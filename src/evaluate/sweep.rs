@@ -1,22 +1,23 @@
-//! The error over a range of settings: u and τ, with everything else as it is.
+//! The error over a range of the settings u and τ, with all others fixed.
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::{Examined, TruthChoice, reference_of};
 use crate::geometry::angle_between_lines_rad;
 use crate::method::{CandidateGrid, ParamError, Ranking, plane_terms, symmetry_axis};
 use crate::parallel::{Cancelled, Watch};
 
-/// The settings to try, each with each.
-#[derive(Debug, Clone, PartialEq)]
+/// The settings to try: every u with every τ.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SweepSettings {
-    /// Steps of the candidate grid.
+    /// The numbers of steps of the candidate grid.
     pub u: Vec<usize>,
-    /// Weights of the angle in centimeters per radian.
+    /// The weights of the angle in centimeters per radian.
     pub tau_cm_per_rad: Vec<f64>,
 }
 
-/// The mean error of a set of clouds for each setting.
+/// The mean error of a set of clouds at each setting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
     /// The settings.
@@ -25,19 +26,19 @@ pub struct Sweep {
     counts: Vec<usize>,
 }
 
-/// Why a cloud was not swept.
+/// The reason why a cloud was not swept.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SweepError {
     /// A u is out of range.
     #[error(transparent)]
     Params(#[from] ParamError),
-    /// The work was called off.
+    /// The watch cancelled the work.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
 impl Sweep {
-    /// A sweep that no cloud has entered yet.
+    /// Creates a sweep without clouds.
     pub fn new(settings: SweepSettings) -> Self {
         let cells = settings.u.len() * settings.tau_cm_per_rad.len();
         Self {
@@ -47,7 +48,7 @@ impl Sweep {
         }
     }
 
-    /// Adds one cloud's errors, u-major.
+    /// Adds the errors of one cloud in degrees, u-major.
     pub fn add(&mut self, errors_deg: &[Option<f64>]) {
         let cells = self.sums_deg.iter_mut().zip(&mut self.counts);
         for ((sum, count), error) in cells.zip(errors_deg) {
@@ -58,7 +59,8 @@ impl Sweep {
         }
     }
 
-    /// The mean error in degrees and the number of clouds at a setting; no mean where there are none.
+    /// Returns the mean error in degrees and the number of clouds at a setting, given by its indices. There is no mean
+    /// without clouds.
     pub fn cell(&self, u: usize, tau: usize) -> (Option<f64>, usize) {
         let i = u * self.settings.tau_cm_per_rad.len() + tau;
         let (sum, count) = (self.sums_deg[i], self.counts[i]);
@@ -66,11 +68,11 @@ impl Sweep {
     }
 }
 
-/// One cloud's error in degrees at each setting, u-major; `None` where there is no axis or no
-/// reference. The planes' terms are computed once for each u, and ranked anew for each τ.
+/// Computes the error of one cloud in degrees at each setting, u-major; `None` where there is no axis or no
+/// reference. The terms of the planes are computed once for each u, and ranked anew for each τ.
 ///
 /// # Errors
-/// Where a u is out of range, or the watch calls the work off.
+/// Returns an error if a u is out of range, or the watch cancels the work.
 pub fn sweep_cloud(
     examined: &Examined,
     choice: TruthChoice,

@@ -1,32 +1,14 @@
-//! Where legend, scale bar, triad, angle and caption stand, so that none covers another.
+//! The layout of legend, scale bar, triad, angle and caption, so that none covers another.
 
 use glam::{DVec2, DVec3};
 
 use super::legend::Legend;
-use super::primitive::{Anchor, Primitive, Theme};
-use crate::render::{Camera, Color, Insets, Viewport};
+use super::page::Page;
+use super::primitive::{Anchor, Primitive};
+use crate::render::{Camera, Color, Insets};
 
-/// How wide a text is, in pixels, at a size in pixels: the painter's own measure.
+/// The painter's measure of a text: its width in pixels at a size in pixels.
 type Measure<'a> = &'a dyn Fn(&str, f64) -> f64;
-
-/// What is to be written on a picture.
-#[derive(Debug, Clone, Copy)]
-pub struct Page<'a> {
-    /// The picture.
-    pub viewport: Viewport,
-    /// Light on dark, or dark on light.
-    pub theme: Theme,
-    /// What the colors mean.
-    pub legend: Option<&'a Legend>,
-    /// The unit of a scale bar's length, such as cm.
-    pub scale_unit: Option<&'a str>,
-    /// Whether to show which way x, y and z point.
-    pub has_triad: bool,
-    /// Lines of a caption, the most important first.
-    pub caption: &'a [String],
-    /// A text beside a point in the world: the angle at the axis' end.
-    pub label: Option<(DVec3, &'a str)>,
-}
 
 impl Page<'_> {
     fn text_px(&self) -> f64 {
@@ -65,7 +47,7 @@ impl Page<'_> {
     }
 }
 
-/// The room that texts and legends take at the picture's edges: what the fruit is framed between.
+/// The room that texts and legends take at the edges of the picture; the fruit is framed between them.
 pub fn insets(page: &Page<'_>, measure: Measure<'_>) -> Insets {
     let margin = page.margin_px();
     let legend = page.legend_width_px(measure);
@@ -81,7 +63,7 @@ pub fn insets(page: &Page<'_>, measure: Measure<'_>) -> Insets {
     }
 }
 
-/// A box that something stands in.
+/// A box that is taken.
 #[derive(Debug, Clone, Copy)]
 struct Area {
     min: DVec2,
@@ -109,8 +91,8 @@ pub fn lay_out(page: &Page<'_>, camera: &Camera, measure: Measure<'_>) -> Vec<Pr
     if page.scale_unit.is_some() {
         taken.extend(scale_bar(page, camera, bottom, measure, &mut out));
     }
-    if let Some((place, text)) = page.label {
-        label(page, camera, place, text, &taken, bottom, measure, &mut out);
+    if let Some((place, text)) = &page.label {
+        label(page, camera, *place, text, &taken, bottom, measure, &mut out);
     }
     out
 }
@@ -233,8 +215,8 @@ fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Primitive>) -> Ar
     area
 }
 
-/// The world's axes as the camera sees them, in the lower left corner. The letters name the file's
-/// own axes, so y points down in a camera's frame.
+/// The directions of the world's axes in the view, in the lower left corner. The letters name the file's own axes, so y
+/// points down in a camera's frame.
 fn triad(page: &Page<'_>, camera: &Camera, bottom: f64, out: &mut Vec<Primitive>) -> Area {
     let (size, margin) = (page.text_px(), page.margin_px());
     let arm = 2.2 * size;
@@ -332,7 +314,7 @@ fn scale_bar(
     })
 }
 
-/// A text beside a point, moved to where it covers nothing else and nothing cuts it off.
+/// A text beside a point, moved so that it covers nothing else and is not cut off.
 #[expect(
     clippy::too_many_arguments,
     reason = "the page, a text with its place, and what is there already"

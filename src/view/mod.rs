@@ -1,13 +1,17 @@
-//! What a view of an analysis shows, as plain data: colors and their legend, overlays, and the
-//! primitives painted over the picture.
+//! A view of an analysis: colors and their legend, overlays, the primitives painted over the picture, and the one way
+//! from settings to a scene ([`compose()`]), its page ([`Page`]) and a picture.
 //!
-//! Nothing here draws. A window and a picture without one show the same, since both get it from here.
+//! All but pictures is plain data. A window and a picture without one show the same, since both are made here.
 
 mod caption;
 mod coloring;
+mod compose;
+#[cfg(feature = "window")]
+mod drawing;
 mod layout;
 mod legend;
 mod overlays;
+mod page;
 mod palette;
 mod pick;
 #[cfg(feature = "reports")]
@@ -17,12 +21,17 @@ mod primitive;
 mod scene;
 mod select;
 mod shown;
+mod style;
 
 pub use caption::{caption, grouped, lead_in_words};
 pub use coloring::{Colored, Coloring, ColoringError, Subject, color_bare, color_labels, color_points};
-pub use layout::{Page, insets, lay_out};
+pub use compose::{Composition, PlaneView, SceneRequest, compose};
+#[cfg(feature = "window")]
+pub use drawing::{Drawing, DrawingError, DrawnCloud, draw_cloud, draw_page};
+pub use layout::{insets, lay_out};
 pub use legend::{Legend, Ramp, Swatch};
 pub use overlays::{Overlay, Overlays};
+pub use page::{Page, PageFacts};
 pub use palette::{NEUTRAL, PEDUNCLE_MARK, VALUE_STOPS, faded, value_color};
 pub use pick::pick_point;
 #[cfg(feature = "reports")]
@@ -38,3 +47,4 @@ pub use scene::{
 };
 pub use select::{Brush, Lasso, Region, Screen};
 pub use shown::ShownPoints;
+pub use style::Style;

@@ -13,20 +13,20 @@ use crate::view::{Anchor, Primitive};
 /// The key of the text chunk that holds the settings.
 pub const SETTINGS_KEY: &str = "axiscope";
 
-/// What a picture was drawn from: enough to draw it again.
+/// The origin of a picture: enough to draw it again.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PictureSettings {
     /// The program's version.
     pub version: String,
     /// The arguments of `render` without cloud, output and `--from`.
     pub arguments: Vec<String>,
-    /// The cloud's file, as it was named.
+    /// The path of the cloud, as it was given.
     pub cloud: String,
     /// The SHA-256 of its bytes, in hexadecimal.
     pub sha256: String,
 }
 
-/// Why a picture could not be written or read.
+/// The reason why a picture could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The primitives could not be painted.
@@ -48,7 +48,7 @@ pub enum PictureError {
     BadSettings(#[from] serde_json::Error),
 }
 
-/// How wide a text is in the bundled font, in pixels, at a size in pixels.
+/// The width of a text in the bundled font, in pixels, at a size in pixels.
 pub fn text_width_px(text: &str, size_px: f64) -> f64 {
     // Widths grow with the size: those at 1000 pixels are exact enough for all.
     text::width(text, 1000) * size_px / 1000.0
@@ -57,7 +57,7 @@ pub fn text_width_px(text: &str, size_px: f64) -> f64 {
 /// Paints primitives onto a picture, with the bundled font.
 ///
 /// # Errors
-/// Where there is no memory for it.
+/// Returns an error if there is no memory for it.
 pub fn paint_primitives(image: &mut Image, primitives: &[Primitive]) -> Result<(), PictureError> {
     let svg = svg_of(image.width_px, image.height_px, primitives);
     let options = usvg::Options {
@@ -79,7 +79,7 @@ pub fn paint_primitives(image: &mut Image, primitives: &[Primitive]) -> Result<(
 /// Encodes a picture with its settings in a text chunk.
 ///
 /// # Errors
-/// Where the picture's size and its pixels differ.
+/// Returns an error if the picture's size and its pixels differ.
 pub fn encode_picture(image: &Image, settings: &PictureSettings) -> Result<Vec<u8>, PictureError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width_px, image.height_px);
@@ -98,10 +98,10 @@ pub fn encode_picture(image: &Image, settings: &PictureSettings) -> Result<Vec<u
     Ok(bytes)
 }
 
-/// The settings in a PNG that [`encode_picture`] made.
+/// The settings in a PNG of [`encode_picture`].
 ///
 /// # Errors
-/// Where these bytes are no PNG, or one without settings.
+/// Returns an error if the bytes are no PNG, or one without settings.
 pub fn picture_settings(png_bytes: &[u8]) -> Result<PictureSettings, PictureError> {
     let mut reader = png::Decoder::new(Cursor::new(png_bytes)).read_info()?;
     // Other programs may put the text behind the pixels.
@@ -114,7 +114,7 @@ pub fn picture_settings(png_bytes: &[u8]) -> Result<PictureSettings, PictureErro
     Ok(serde_json::from_str(&chunk.get_text()?)?)
 }
 
-/// The pixels of a PNG that [`encode_picture`] made; `None` where it is another, or broken.
+/// The pixels of a PNG of [`encode_picture`]; `None` for any other PNG, and a broken one.
 pub fn decode_picture(png_bytes: &[u8]) -> Option<Image> {
     let mut reader = png::Decoder::new(Cursor::new(png_bytes)).read_info().ok()?;
     let mut rgb = vec![0; reader.output_buffer_size()?];
@@ -227,7 +227,7 @@ fn paint(attribute: &str, [r, g, b, a]: Color) -> String {
     )
 }
 
-/// A text as XML may hold it: names of files may hold anything.
+/// A text escaped for XML: names of files may hold anything.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

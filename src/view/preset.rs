@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::render::{Camera, Insets, Projection, Viewport};
 
-/// Where to look from. *Up* in a camera's frame is −y.
+/// A standard direction of the view. *Up* in a camera's frame is −y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum ViewPreset {

@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 use crate::helpers::driving::{act, app, set, settle};
 use crate::helpers::peppers::{make_older, write_peppers};
 use axiscope::app::many::{
-    Column, Filter, ManyCommand, Sort, SweepWish, TableRow, Tagged, evaluate_command_line, ordered,
+    Column, Filter, ManyCommand, Sort, SweepRanges, TableRow, evaluate_command_line, ordered,
 };
 use axiscope::app::{App, Command, Session};
-use axiscope::evaluate::{Row, TruthChoice, examine};
+use axiscope::evaluate::{Outcome, Row, Tagged, TruthChoice, examine};
 use axiscope::fruit::Fruit;
 use proptest::prelude::*;
 use tempfile::TempDir;
@@ -59,10 +59,10 @@ fn a_small_folder_is_evaluated_as_it_is_opened_and_rows_equal_examine_s() {
     assert!(app.state().many.progress.is_none());
     let request = app.state().settings.request.clone();
     for (row, path) in rows(&app).iter().zip(&paths) {
-        let fruit = Fruit::read(path, request.unit, &request.peduncle).expect("a fruit");
+        let fruit = Fruit::read(path, &request).expect("a fruit");
         let examined = examine(fruit, &request, &()).expect("analyzed");
         let name = path.file_name().expect("a name").to_string_lossy();
-        assert_eq!(*row, Row::of(&name, &examined, TruthChoice::Auto));
+        assert_eq!(*row, Outcome::of(&name, &examined).against(TruthChoice::Auto));
         assert!(row.error_deg.is_some() && row.peduncle_error_deg.is_some());
     }
 }
@@ -336,13 +336,13 @@ fn saved_results_are_those_of_the_command_line_that_is_copied() {
             .any(|m| m.text.contains("once all open clouds are evaluated"))
     );
     act(&mut app, folder(ManyCommand::Evaluate));
-    let wish = SweepWish {
+    let ranges = SweepRanges {
         u: [5, 7],
         tau_cm_per_rad: [0.0, 1.0],
         tau_step_cm_per_rad: 0.5,
-        ..SweepWish::default()
+        ..SweepRanges::default()
     };
-    act(&mut app, folder(ManyCommand::Wish(Box::new(wish))));
+    act(&mut app, folder(ManyCommand::SweepRanges(Box::new(ranges))));
     act(&mut app, folder(ManyCommand::Sweep));
     assert_eq!(app.state().many.sweep.clouds, [3, 4]);
     for _ in 0..2 {

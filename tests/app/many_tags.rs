@@ -4,8 +4,9 @@ use std::path::Path;
 
 use crate::helpers::driving::{act, app, set, settle};
 use crate::helpers::peppers::write_peppers;
-use axiscope::app::many::{ManyCommand, TAGS_FILE, Tagged};
+use axiscope::app::many::ManyCommand;
 use axiscope::app::{App, Command};
+use axiscope::evaluate::{TAGS_FILE, Tagged};
 use tempfile::TempDir;
 
 /// A program with the folder open, that keeps its rows in `cache`.
@@ -156,7 +157,7 @@ fn another_program_s_tags_are_kept() {
         let tagged = Tagged::default().with_tags("seen");
         act(app, folder(ManyCommand::Tag { place, tagged }));
     }
-    let tags = axiscope::app::many::read_tags(&set).expect("they can be read");
+    let tags = axiscope::evaluate::read_tags(&set).expect("they can be read");
     assert_eq!(tags.len(), 3);
     assert!(!set.join(format!("{TAGS_FILE}.tmp")).exists());
 }

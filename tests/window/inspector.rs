@@ -48,17 +48,28 @@ fn the_sample_is_shown_analyzed() {
 }
 
 #[test]
+fn warnings_are_listed_behind_their_number() {
+    let mut harness = window();
+    apply(&mut harness, Command::OpenSample(Sample::MissedPepper));
+    apply(&mut harness, Command::UsePreset(Preset::AsPrinted));
+    let warned = harness.state().app().state().warnings.clone();
+    let number = match warned.len() {
+        1 => "1 warning".to_owned(),
+        several => format!("{several} warnings"),
+    };
+    harness.get_by_label(&number).click();
+    settle(&mut harness);
+    for warning in &warned {
+        assert!(harness.query_by_label(warning).is_some(), "{warning}");
+    }
+}
+
+#[test]
 fn each_coloring_has_its_legend() {
     let mut harness = window();
     for coloring in Coloring::ALL {
         color(&mut harness, coloring);
-        harness.remove_cursor();
-        settle(&mut harness);
-        compare_view(
-            &mut harness,
-            "screenshots/window",
-            &format!("color_{}", coloring.name()),
-        );
+        view_snapshot(&mut harness, &format!("color_{}", coloring.name()));
     }
 }
 
@@ -396,7 +407,7 @@ fn a_saved_view_is_drawn_again_by_the_command_line() {
 fn no_two_actions_share_a_key_and_every_one_is_in_the_help() {
     let harness = window();
     let state = harness.state().app().state();
-    let all = axiscope::ui::window::actions::actions(state);
+    let all = axiscope::ui::actions(state);
     let mut keys: Vec<_> = all.iter().flat_map(|a| a.keys.iter()).collect();
     let count = keys.len();
     keys.sort_by_key(|key| format!("{key:?}"));
@@ -492,7 +503,7 @@ fn every_sample_opens() {
 #[test]
 fn every_panel_comes_to_the_front() {
     let mut harness = window();
-    for pane in [Pane::Hemisphere, Pane::Contributions, Pane::Files] {
+    for pane in [Pane::Hemisphere, Pane::Contributions, Pane::Clouds] {
         harness.get_by_label(pane.title()).click();
         settle(&mut harness);
     }

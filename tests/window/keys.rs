@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use axiscope::app::{TrueAxesCommand, App, Command, Session, Tool};
-use axiscope::ui::window::actions::{Action, actions};
+use axiscope::app::{App, Command, Session, Tool, TrueAxesCommand};
+use axiscope::ui::{Action, actions};
 
 /// A cloud, analyzed.
 fn app(folder: &Path) -> App {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::look::{Look, Question, look};
+use super::look::{Look, LookRequest, look};
 use super::navigate::{default_camera, framed_camera};
 use super::stages::{Source, WalkError, Walked};
 use crate::app::workers::Crashed;
@@ -95,7 +95,8 @@ impl App {
         match taken {
             None => {}
             Some(Ok((stages, result))) => {
-                self.pool.discard(Some(std::mem::replace(&mut self.stages, stages)));
+                self.pool
+                    .discard(Some(std::mem::replace(&mut self.stages, stages)));
                 self.accept(result);
             }
             Some(Err(Crashed(fault))) => {
@@ -195,7 +196,7 @@ impl App {
             reference: self.state.reference().cloned().filter(|_| !is_blind),
         };
         if self.seen.as_ref() != Some(&wanted) {
-            let question = Question {
+            let request = LookRequest {
                 shown,
                 analysis: self.state.analysis().cloned(),
                 plane: wanted.plane,
@@ -209,7 +210,7 @@ impl App {
             };
             let before = self.state.look.clone();
             self.looks
-                .submit(move |watch| look(question, before.as_deref(), watch));
+                .submit(move |watch| look(request, before.as_deref(), watch));
             self.seen = Some(wanted);
             self.state.is_look_pending = true;
             if let Some(result) = self.looks.take_within(PATIENCE) {

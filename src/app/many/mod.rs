@@ -1,44 +1,38 @@
 //! The open clouds as a set: analyzed in the background, as a table that is sorted and filtered, tagged,
 //! drawn small, and swept over settings.
 
-mod cache;
-#[cfg(feature = "window")]
-mod pictures;
-mod run;
+mod background;
+mod cloud_rows;
 mod saving;
 mod sweeping;
-mod table;
+mod tag_store;
 mod tagging;
-mod tags;
 mod thumbnails;
 mod update;
 
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use crate::app::workers::{Lane, Pool};
-use crate::evaluate::TruthChoice;
+use crate::evaluate::{Tagged, TruthChoice};
 use crate::fruit::Request;
-use crate::parallel::Crew;
+use crate::parallel::BackgroundPool;
 
-#[cfg(feature = "window")]
-pub use pictures::pictures_of_worst;
-pub use saving::{add_tags, evaluate_command_line};
-pub use sweeping::{MOST_TAUS, SweepState, SweepWish};
-pub use table::{Column, Filter, Sort, TableRow, ordered};
-pub use tags::{TAGS_FILE, Tagged, read_tags};
-pub use thumbnails::{KEPT_PICTURES, THUMBNAIL_PX, Thumbnail, Thumbnails};
+pub use cloud_rows::{Column, Filter, Sort, TableRow, ordered};
+pub use saving::evaluate_command_line;
+pub use sweeping::{MOST_TAUS, SweepRanges, SweepState};
+pub use thumbnails::{KEPT_PICTURES, Thumbnail, Thumbnails};
 
-use run::{Background, Found};
+use background::{BatchContext, BatchResult};
 use sweeping::Sweeper;
-use tags::TagStore;
-use thumbnails::Studio;
+use tag_store::TagStore;
+use thumbnails::ThumbnailQueue;
 
 /// Folders of up to so many clouds are evaluated as they are opened.
 pub const EVALUATED_AT_ONCE: usize = 200;
@@ -61,7 +55,7 @@ pub struct KeptMany {
     sort: Sort,
     filter: Filter,
     against: TruthChoice,
-    sweep: SweepWish,
+    sweep: SweepRanges,
     folders: Vec<PathBuf>,
 }
 
@@ -78,7 +72,7 @@ impl Default for KeptMany {
             sort: Sort::default(),
             filter: Filter::default(),
             against: TruthChoice::Auto,
-            sweep: SweepWish::default(),
+            sweep: SweepRanges::default(),
             folders: Vec::new(),
         }
     }
@@ -140,7 +134,7 @@ impl ManyState {
             sort: self.sort,
             filter: self.filter.clone(),
             against: self.against,
-            sweep: self.sweep.wish.clone(),
+            sweep: self.sweep.ranges.clone(),
             folders: self.folders.clone(),
         }
     }
@@ -177,7 +171,7 @@ pub enum ManyCommand {
     /// Draw small pictures of these clouds, which are in sight, by their places in the list.
     Picture(Vec<usize>),
     /// Which settings are to be swept.
-    Wish(Box<SweepWish>),
+    SweepRanges(Box<SweepRanges>),
     /// Sweep over them.
     Sweep,
     /// Call the sweep off; the map stays as far as it came.
@@ -202,10 +196,9 @@ pub enum ManyCommand {
 
 /// What works behind [`ManyState`].
 pub(super) struct Many {
-    background: Background,
-    crew: Arc<Crew>,
+    context: BatchContext,
     lane: Lane<()>,
-    found: (Sender<Found>, Receiver<Found>),
+    found: (Sender<BatchResult>, Receiver<BatchResult>),
     turn: u64,
     /// What the rows in force are of.
     request: Option<Request>,
@@ -220,7 +213,7 @@ pub(super) struct Many {
     worked_out: usize,
     places: HashMap<PathBuf, usize>,
     tag_store: TagStore,
-    studio: Studio,
+    thumbnails: ThumbnailQueue,
     sweeper: Sweeper,
     results: Lane<Result<String, String>>,
     tags_read: HashSet<PathBuf>,
@@ -231,11 +224,11 @@ pub(super) struct Many {
 impl Many {
     pub(super) fn new(pool: &Pool) -> Self {
         Self {
-            background: Background {
-                cache: Arc::new(Mutex::default()),
-                is_in_the_way: Arc::new(AtomicBool::new(false)),
+            context: BatchContext {
+                store: Arc::default(),
+                pool: Arc::new(BackgroundPool::new()),
+                is_foreground_busy: Arc::new(AtomicBool::new(false)),
             },
-            crew: Arc::new(Crew::new()),
             lane: Lane::new(pool),
             found: channel(),
             turn: 0,
@@ -248,7 +241,7 @@ impl Many {
             worked_out: 0,
             places: HashMap::new(),
             tag_store: TagStore::new(pool),
-            studio: Studio::new(pool),
+            thumbnails: ThumbnailQueue::new(pool),
             sweeper: Sweeper::new(pool),
             results: Lane::new(pool),
             tags_read: HashSet::new(),
@@ -257,7 +250,7 @@ impl Many {
     }
 
     pub(super) fn is_busy(&self) -> bool {
-        let is_drawing = self.studio.is_busy() || self.sweeper.is_busy() || self.results.is_busy();
+        let is_drawing = self.thumbnails.is_busy() || self.sweeper.is_busy() || self.results.is_busy();
         self.lane.is_busy() || self.rested.is_some() || self.tag_store.is_busy() || is_drawing
     }
 }

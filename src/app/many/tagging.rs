@@ -1,13 +1,14 @@
-//! Tags and notes as somebody changes them: shown at once, written behind it, and undone in turn with settings.
+//! Edits of tags and notes: shown at once, written to disk in the background, and undone in turn with settings.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::run::name_of;
-use super::tags::Answer;
-use super::{Filter, Many, TableRow, Tagged};
+use super::background::name_of;
+use super::tag_store::TagResult;
+use super::{Filter, Many, TableRow};
 use crate::app::{App, Step};
+use crate::evaluate::Tagged;
 
 impl App {
     pub(super) fn tag(&mut self, place: usize, tagged: Tagged) {
@@ -57,11 +58,11 @@ impl App {
         }
     }
 
-    /// What the thread that reads and writes tags has to tell.
+    /// Takes the results of reading and writing tags.
     pub(super) fn take_tags(&mut self) {
-        while let Some(answer) = self.many.tag_store.take() {
-            match answer {
-                Answer::Read(folder, Ok(mut tags)) => {
+        while let Some(result) = self.many.tag_store.take() {
+            match result {
+                TagResult::Read(folder, Ok(mut tags)) => {
                     let rows = Arc::make_mut(&mut self.state.many.rows);
                     for (place, row) in rows.iter_mut().enumerate() {
                         let is_there = row.path.as_deref().and_then(Path::parent) == Some(&*folder);
@@ -80,8 +81,10 @@ impl App {
                     self.gather_tags();
                     self.reorder();
                 }
-                Answer::Read(_, Err(problem)) | Answer::Written(Err(problem)) => self.say(true, problem),
-                Answer::Written(Ok(())) => {}
+                TagResult::Read(_, Err(problem)) | TagResult::Written(Err(problem)) => {
+                    self.say(true, problem)
+                }
+                TagResult::Written(Ok(())) => {}
             }
         }
     }

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use super::run::{Found, Task, run};
-use super::{EVALUATED_AT_ONCE, ManyCommand, EvaluationProgress, TableRow, ordered};
+use super::background::{BatchResult, BatchTask, evaluate_batch};
+use super::{EVALUATED_AT_ONCE, EvaluationProgress, ManyCommand, TableRow, ordered};
 use crate::app::state::State;
 use crate::app::{App, Source};
-use crate::evaluate::Outcome;
+use crate::evaluate::{Outcome, RowStore, StoreKind, StoreProblem};
 
 /// Parameters that have rested so long are looked up for all clouds.
 const CALM: Duration = Duration::from_millis(300);
@@ -18,14 +18,15 @@ const CALM: Duration = Duration::from_millis(300);
 impl App {
     /// Keeps rows in a folder, so that they need not be worked out again the next time.
     pub fn keep_rows_in(&mut self, folder: PathBuf) {
-        self.many.background.cache().keep_in(folder);
+        let store = RowStore::in_folder(folder, StoreKind::Cache);
+        self.many.context.store = Arc::new(store);
         self.look_up();
     }
 
     /// How many files were read in the background to know their hash: for tests of the cache.
     #[doc(hidden)]
     pub fn background_reads(&self) -> usize {
-        self.many.background.cache().reads()
+        self.many.context.store.hash_reads()
     }
 
     /// The list of open clouds has changed. A folder that is not too large is evaluated at once.
@@ -42,15 +43,18 @@ impl App {
         self.update_pictures();
         self.update_sweep();
         self.update_results();
-        let problem = self.many.background.cache().take_problem();
-        if let Some(problem) = problem {
-            self.say(true, problem);
+        if let Some(StoreProblem { path, error }) = self.many.context.store.take_problem() {
+            let path = path.display();
+            self.say(
+                true,
+                format!("{path}: rows cannot be kept for the next time: {error}."),
+            );
         }
     }
 
     /// Whether the current cloud is being worked on: the background waits while it is.
     pub(in crate::app) fn stand_aside(&self, is_in_the_way: bool) {
-        let flag = &self.many.background.is_in_the_way;
+        let flag = &self.many.context.is_foreground_busy;
         flag.store(is_in_the_way, Ordering::Relaxed);
     }
 
@@ -83,7 +87,7 @@ impl App {
             }
             ManyCommand::GoWorse(by) => self.go_worse(by),
             ManyCommand::Picture(places) => self.want_pictures(&places),
-            ManyCommand::Wish(wish) => self.state.many.sweep.wish = *wish,
+            ManyCommand::SweepRanges(ranges) => self.state.many.sweep.ranges = *ranges,
             ManyCommand::Sweep => self.sweep(),
             ManyCommand::SaveResults(into) => self.save_results(into),
             ManyCommand::CancelSweep => self.cancel_sweep(),
@@ -227,17 +231,17 @@ impl App {
             total: clouds.len(),
             left: None,
         });
-        let task = Task {
+        let task = BatchTask {
             turn: self.many.turn,
             clouds,
             request: self.state.settings.request.clone(),
-            only_kept,
+            only_stored: only_kept,
         };
-        let (background, crew) = (self.many.background.clone(), self.many.crew.clone());
+        let context = self.many.context.clone();
         let found = self.many.found.0.clone();
         self.many
             .lane
-            .submit(move |watch| run(&task, &background, &crew, watch, &found));
+            .submit(move |watch| evaluate_batch(&task, &context, watch, &found));
     }
 
     fn take_found(&mut self) {
@@ -271,13 +275,13 @@ impl App {
         }
     }
 
-    fn take_row(&mut self, found: Found) {
+    fn take_row(&mut self, found: BatchResult) {
         let Some(&place) = self.many.places.get(&found.path) else {
             return;
         };
         let rows = Arc::make_mut(&mut self.state.many.rows);
         let Some(row) = rows.get_mut(place) else { return };
-        self.many.worked_out += usize::from(!found.was_kept && found.outcome.is_some());
+        self.many.worked_out += usize::from(!found.was_stored && found.outcome.is_some());
         if let Some(outcome) = found.outcome {
             if let Some(entry) = self.state.entries.get_mut(place) {
                 let failure = outcome.row().failure.as_deref();

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::desk::Deed;
-use super::{TrueAxesCommand, Decision, Draft, Ghost, Grab, Handle, Saving, Turn};
+use super::{Decision, Draft, Ghost, Grab, Handle, Saving, TrueAxesCommand, Turn};
 use crate::annotate::{Annotation, Ends, EndsError, Judgment, Method, Role, mean_axis};
 use crate::app::App;
 use crate::evaluate::start_axis;

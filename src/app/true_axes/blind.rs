@@ -1,8 +1,8 @@
 //! Blind mode: nothing computed is shown, so that it cannot draw the annotator's hand.
 
 use crate::app::State;
-use crate::app::inspector::look::Style;
 use crate::app::state::Command;
+use crate::view::Style;
 use crate::view::{Coloring, Overlay, ViewPreset};
 
 /// Overlays that show, or give away, what was computed.

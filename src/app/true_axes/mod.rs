@@ -30,7 +30,7 @@ use crate::undo::History;
 
 pub use agreement::SetReport;
 pub use blind::overlay_reveals;
-pub use commands::{TrueAxesCommand, Decision, Turn};
+pub use commands::{Decision, TrueAxesCommand, Turn};
 pub(super) use update::Annotator;
 pub use views::{EditView, Handle};
 

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{TrueAxesState, Draft, Grab, Subject};
+use super::{Draft, Grab, Subject, TrueAxesState};
 use crate::annotate::Ends;
 use crate::app::dragged;
 use crate::render::{Camera, Projection, Viewport};

@@ -142,7 +142,10 @@ impl<T> Schedule<T> {
 
     /// Waits until no job is left.
     pub(super) fn finish(&self) {
-        let waited = self.shared.changed.wait_while(self.jobs(), |jobs| jobs.is_scheduled);
+        let waited = self
+            .shared
+            .changed
+            .wait_while(self.jobs(), |jobs| jobs.is_scheduled);
         drop(waited.unwrap_or_else(PoisonError::into_inner));
     }
 }

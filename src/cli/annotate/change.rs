@@ -16,22 +16,22 @@ use crate::cli::options::{number, position};
 )]
 #[command(next_help_heading = "Edit", group = ArgGroup::new("edit").multiple(true))]
 pub(super) struct Change {
-    /// Go back by one edit
+    /// Undo the last edit
     #[arg(long, conflicts_with_all = ["redo", "edit"])]
     pub(super) undo: bool,
-    /// Go forward again by one edit
+    /// Redo the edit that was undone last
     #[arg(long, conflicts_with = "edit")]
     pub(super) redo: bool,
-    /// The peduncle's base, in the file's unit and frame
+    /// Position of the peduncle's base, in the file's unit and frame
     #[arg(long, value_name = "X,Y,Z", group = "edit", value_parser = position, allow_hyphen_values = true, conflicts_with = "start")]
     base: Option<DVec3>,
-    /// The blossom end
+    /// Position of the blossom end
     #[arg(long, value_name = "X,Y,Z", group = "edit", value_parser = position, allow_hyphen_values = true, conflicts_with = "start")]
     blossom: Option<DVec3>,
-    /// Start from an axis that is known; this is recorded
+    /// Start from a known axis, which the axis file records
     #[arg(long, value_enum, group = "edit")]
     start: Option<Method>,
-    /// Say that the axis cannot be told
+    /// Record that the axis cannot be told
     #[arg(long, group = "edit", conflicts_with_all = ["base", "blossom", "start", "flip", "turn", "shift", "lengthen"])]
     cannot_tell: bool,
     /// Exchange the ends
@@ -40,22 +40,22 @@ pub(super) struct Change {
     /// Turn by DEG about a direction: lean (towards the viewer or away), picture (within the picture), or X,Y,Z
     #[arg(long, value_name = "ABOUT=DEG", group = "edit", allow_hyphen_values = true)]
     turn: Vec<Turn>,
-    /// Move the whole axis
+    /// Move the whole axis by this vector
     #[arg(long, value_name = "X,Y,Z", group = "edit", value_parser = position, allow_hyphen_values = true)]
     shift: Option<DVec3>,
-    /// Make it longer by so much, or shorter
+    /// Make the axis longer by L, or shorter if L is negative
     #[arg(long, value_name = "L", group = "edit", value_parser = number, allow_negative_numbers = true)]
     lengthen: Option<f64>,
-    /// What stays in place when it is turned or lengthened
+    /// Point that stays in place when the axis is turned or lengthened
     #[arg(long, value_enum, default_value = "middle")]
     hold: Pivot,
-    /// How sure you are: 0 to 1, or low, medium, high (0.25, 0.5, 0.75)
+    /// Your confidence: 0 to 1, or low, medium, high (0.25, 0.5, 0.75)
     #[arg(long, value_name = "SURE", group = "edit", value_parser = confidence)]
     confidence: Option<Confidence>,
-    /// Anything else
+    /// A note on the axis
     #[arg(long, value_name = "TEXT", group = "edit")]
     note: Option<String>,
-    /// Record that nothing computed was seen
+    /// Record that you saw no computed axis
     #[arg(long, requires = "edit")]
     blind: bool,
 }

@@ -38,16 +38,16 @@ struct Output {
     /// [default: pepper.ply or ellipsoid.ply; for several, the folder peppers or ellipsoids]
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
-    /// How many clouds, each with a seed of its own that follows from --seed
+    /// Number of clouds, each with its own seed, which follows from --seed
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     count: u32,
-    /// Seed of everything random
+    /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     /// Unit of the file's coordinates
     #[arg(long, value_enum, default_value = "cm")]
     unit: Unit,
-    /// How the numbers stand in the file
+    /// Encoding of the numbers in the file
     #[arg(long, value_enum, default_value = "binary")]
     encoding: Encoding,
 }
@@ -65,10 +65,10 @@ struct Ellipsoid {
     /// The center's depth in cm, or a range FROM..TO[:STEP]: the paper's is 25..70:1
     #[arg(long, value_name = "Z", default_value = "25", value_parser = depths, allow_hyphen_values = true)]
     z0: Depths,
-    /// Visible points; the paper does not tell
+    /// Number of visible points, which the paper does not state
     #[arg(long, value_name = "N", default_value_t = 3000)]
     points: usize,
-    /// Standard deviation of the depth at 40 cm, growing with the distance's square
+    /// Standard deviation of a depth at 40 cm, in cm; it grows with the square of the distance
     #[arg(long, value_name = "CM", default_value_t = 0.0, value_parser = number, allow_hyphen_values = true)]
     noise_cm: f64,
 }

@@ -1,4 +1,4 @@
-//! The 3-D view: the picture, what is written over it, and what the mouse does there.
+//! The 3-D view: the picture, its page, and the mouse.
 
 use egui::{
     Align2, Color32, CursorIcon, FontId, PointerButton, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, vec2,
@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::paint::ViewCallback;
 use crate::app::inspector::why::{why, why_lines};
 use crate::app::true_axes::EditView;
-use crate::app::{Command, State, Tool, Written, dragged};
+use crate::app::{Command, State, Tool, dragged, page};
 use crate::render::{Line, Viewport};
 use crate::ui::peduncle;
 use crate::ui::true_axes::Stage;
@@ -17,7 +17,7 @@ use crate::view::{Anchor, Primitive, lay_out};
 /// Radians a logical pixel of dragging.
 pub(in crate::ui) const ORBIT_RAD_PER_PX: f64 = 0.008;
 
-/// What the view tells the window.
+/// The view's report to the window.
 pub(in crate::ui) struct ViewAnswer {
     /// Its size in logical pixels.
     pub(in crate::ui) viewport: Viewport,
@@ -79,8 +79,7 @@ pub(in crate::ui) fn show(
             },
         ));
     }
-    let written = Written::of(state, look);
-    let page = written.page(state, viewport);
+    let page = page(state, look, viewport);
     let font = |size: f64| FontId::proportional(size as f32);
     let measure = |text: &str, size: f64| {
         let galley = ui
@@ -98,7 +97,7 @@ pub(in crate::ui) fn show(
     answer
 }
 
-/// What a screen reader says of the view.
+/// The description of the view for screen readers.
 fn description(state: &State) -> String {
     match (state.source(), state.look.as_ref()) {
         (Some(source), Some(look)) => format!(
@@ -206,7 +205,7 @@ fn cursor_lines(state: &State, pixels_per_point: f32) -> Vec<Line> {
     lines
 }
 
-/// What is said in the view's upper left corner while it does not show what is asked for.
+/// Draws notices in the upper left corner while the view does not show the current settings.
 fn notices(ui: &egui::Ui, rect: Rect, state: &State) {
     let mut lines: Vec<String> = Vec::new();
     if let Some((_, why)) = &state.unanalyzed {

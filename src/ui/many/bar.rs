@@ -1,11 +1,11 @@
-//! The line above every panel of clouds: what is evaluated, how far that is, and against which reference.
+//! The line above every panel of clouds: evaluation, its progress, the reference, and the results.
 
 use std::time::Duration;
 
 use egui::{Button, ProgressBar, Ui, vec2};
 
 use super::FolderAnswer;
-use crate::app::many::{ManyCommand, EvaluationProgress};
+use crate::app::many::{EvaluationProgress, ManyCommand};
 use crate::app::{Command, State, TruthChoice};
 use crate::ui::widgets::controls::{Choice, choose};
 
@@ -26,7 +26,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     .inner
 }
 
-/// What can be taken along.
+/// Shows the menu of results.
 fn results(ui: &mut Ui, state: &State) -> Option<FolderAnswer> {
     let mut answer = None;
     let folder = &state.many;
@@ -95,7 +95,7 @@ fn evaluation(ui: &mut Ui, state: &State, say: &mut impl FnMut(ManyCommand)) {
     }
 }
 
-/// How far something is that is done for all clouds.
+/// Shows the progress of work on all clouds.
 pub(in crate::ui) fn progress_bar(ui: &mut Ui, progress: EvaluationProgress) {
     let left = progress.left.map(|left| format!(", {}", in_words(left)));
     let text = format!(
@@ -108,7 +108,7 @@ pub(in crate::ui) fn progress_bar(ui: &mut Ui, progress: EvaluationProgress) {
     ui.add(ProgressBar::new(share).desired_width(260.0).text(text));
 }
 
-/// How long something will take, as people say it.
+/// Describes a remaining time in words.
 fn in_words(left: Duration) -> String {
     let seconds = left.as_secs_f64();
     if seconds < 10.0 {
@@ -154,7 +154,7 @@ fn against(ui: &mut Ui, chosen: TruthChoice) -> Option<TruthChoice> {
     choose(ui, "Error against", &chosen, tip, choices)
 }
 
-/// What there is to say where nothing was evaluated yet.
+/// Explains why a panel is empty.
 pub(in crate::ui) fn nothing_yet(ui: &mut Ui, state: &State) {
     ui.add_space(24.0);
     ui.vertical_centered(|ui| {

@@ -1,4 +1,4 @@
-//! The line that narrows the table.
+//! The line with the filter of the table.
 
 use egui::{Checkbox, ComboBox, DragValue, TextEdit, Ui};
 

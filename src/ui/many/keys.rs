@@ -1,13 +1,13 @@
-//! What can be done with the open clouds as a set, by key.
+//! The keyboard actions on the open clouds as a set.
 
 use egui::{Key, Modifiers};
 
 use crate::app::many::ManyCommand;
 use crate::app::{Command, State};
-use crate::ui::window::actions::{Action, Group, WindowAct};
-use crate::ui::window::layout::Pane;
+use crate::ui::action::{Action, Group, WindowAct};
+use crate::ui::pane::Pane;
 
-/// The actions of this room.
+/// Returns the actions.
 pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
     let folder = &state.many;
     let pane = |title: &str, pane, key| {
@@ -26,7 +26,7 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
             "Evaluate all open clouds",
             Command::Many(ManyCommand::Evaluate),
         )
-        // Where nothing is missing: files may have changed.
+        // Also if no row is missing: files may have changed.
         .when(has_files)
     };
     let worse = |title: &str, by, key| {

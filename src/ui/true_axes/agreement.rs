@@ -5,7 +5,7 @@ use egui::{Button, Grid, ProgressBar, RichText, Sense, Ui, vec2};
 use super::{say, stage::other_color};
 use crate::annotate::{Annotation, CloudAgreement, FAR_OFF_DEG, Role};
 use crate::app::true_axes::{Decision, SetReport};
-use crate::app::{TrueAxesCommand, Command, State};
+use crate::app::{Command, State, TrueAxesCommand};
 use crate::geometry::angle_between_lines_rad;
 use crate::ui::widgets::controls::{caution, hint, section};
 use crate::ui::widgets::marks::color32;

@@ -5,7 +5,7 @@ use egui::{Id, Key, Modal, RichText, TextEdit};
 use super::say;
 use crate::annotate::Author;
 use crate::app::true_axes::Saving;
-use crate::app::{TrueAxesCommand, Command, State};
+use crate::app::{Command, State, TrueAxesCommand};
 use crate::text::sentence;
 
 /// Asks for the annotator's name, once.

@@ -1,16 +1,11 @@
 //! What can be done about true axes with a key.
 
-use egui::{Key, Modifiers};
+use egui::Key;
 
 use crate::annotate::{Confidence, Method, NUDGES_DEG, Pivot};
 use crate::app::true_axes::{Draft, Turn};
-use crate::app::{TrueAxesCommand, Command, State};
-use crate::ui::window::actions::{Action, Group};
-
-const NONE: Modifiers = Modifiers::NONE;
-const CTRL: Modifiers = Modifiers::COMMAND;
-const SHIFT: Modifiers = Modifiers::SHIFT;
-const ALT: Modifiers = Modifiers::ALT;
+use crate::app::{Command, State, TrueAxesCommand};
+use crate::ui::action::{ALT, Action, CTRL, Group, NONE, SHIFT};
 
 fn action(title: impl Into<String>, command: TrueAxesCommand) -> Action {
     Action::app(Group::TrueAxis, title, Command::TrueAxes(command))

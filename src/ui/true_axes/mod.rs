@@ -16,7 +16,7 @@ pub(in crate::ui) use locked::show as locked_views;
 pub use panel::show;
 pub(in crate::ui) use stage::Stage;
 
-use crate::app::{TrueAxesCommand, Command};
+use crate::app::{Command, TrueAxesCommand};
 use crate::render::Color;
 
 /// The axis that is being set: a hue apart from the computed axis and the reference.

@@ -5,7 +5,7 @@ use egui::{Button, ComboBox, ProgressBar, RichText, Role as Spoken, TextEdit, Ui
 use super::{agreement, own, say};
 use crate::annotate::{Author, Role};
 use crate::app::true_axes::Saving;
-use crate::app::{TrueAxesCommand, Command, Source, State};
+use crate::app::{Command, Source, State, TrueAxesCommand};
 use crate::text::sentence;
 use crate::ui::widgets::controls::{caution, hint};
 

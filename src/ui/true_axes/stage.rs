@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::{OTHERS, OWN, say};
 use crate::annotate::{Annotation, Role};
 use crate::app::true_axes::{Draft, EditView, Grab, Handle};
-use crate::app::{TrueAxesCommand, Command, State};
+use crate::app::{Command, State, TrueAxesCommand};
 use crate::render::{Camera, Viewport};
 use crate::ui::widgets::marks::color32;
 

@@ -1,7 +1,7 @@
 //! The window: panels around the view, keys, dialogs, and what is kept for the next time.
 
 mod about;
-pub mod actions;
+pub(super) mod actions;
 mod acts;
 mod dialogs;
 mod help;
@@ -27,11 +27,13 @@ use crate::app::many::ManyCommand;
 use crate::app::workers::Repaint;
 use crate::app::{App, Command, PeduncleCommand, Session};
 use crate::fruit::companion_path;
+use crate::ui::action::{Act, WindowAct};
 use crate::ui::inspector::paint::Views;
+use crate::ui::pane::Pane;
 use crate::ui::true_axes;
-use crate::ui::window::actions::{Act, WindowAct, actions};
+use crate::ui::window::actions::actions;
 use crate::ui::window::dialogs::Asked;
-use crate::ui::window::layout::{Pane, first_layout, is_wide, layout_from};
+use crate::ui::window::layout::{first_layout, is_wide, layout_from};
 use crate::ui::window::palette::{Answer, Palette};
 use crate::ui::window::panes::Panes;
 use save_image::SaveImage;
@@ -233,7 +235,7 @@ impl Window {
             }
         }
         if self.app.state().true_axes.is_editing && !was_editing {
-            self.act(&ctx, WindowAct::Show(Pane::TrueAxis));
+            self.act(&ctx, WindowAct::Show(Pane::TrueAxes));
         }
     }
 

@@ -102,8 +102,7 @@ fn blind_mode_hides_everything_computed() {
 
 /// An axis of somebody else, written by the library.
 fn set_as(author: &Author, cloud: &Path, ends: Ends) {
-    let fruit =
-        axiscope::fruit::Fruit::read(cloud, None, &axiscope::fruit::PeduncleChoice::Auto).expect("a cloud");
+    let fruit = axiscope::fruit::Fruit::read(cloud, &axiscope::fruit::Request::default()).expect("a cloud");
     let id = axiscope::annotate::CloudId {
         file: cloud.file_name().expect("a name").to_string_lossy().into(),
         sha256: fruit.file.sha256.clone(),

@@ -2,7 +2,7 @@
 
 use super::{apply, current, press, settle, snapshot, window_on, window_on_peppers};
 use axiscope::app::Command;
-use axiscope::app::many::{ManyCommand, KEPT_PICTURES};
+use axiscope::app::many::{KEPT_PICTURES, ManyCommand};
 use axiscope::evaluate::TruthChoice;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;

@@ -9,8 +9,9 @@ use std::path::Path;
 
 use crate::helpers::in_window::{Windowed, apply, compare, press, settle, window_of};
 use crate::helpers::peppers::write_peppers;
-use axiscope::app::many::{ManyCommand, Tagged};
+use axiscope::app::many::ManyCommand;
 use axiscope::app::{Command, Session};
+use axiscope::evaluate::Tagged;
 use tempfile::TempDir;
 
 /// A window on a folder of nine peppers and a file that is none, evaluated; two are tagged.

@@ -200,7 +200,7 @@ fn keys_that_edit_mode_takes_are_listed_once() {
         if is_editing {
             press(&mut harness, Modifiers::NONE, Key::T);
         }
-        let all = axiscope::ui::window::actions::actions(state(&harness));
+        let all = axiscope::ui::actions(state(&harness));
         let mut keys: Vec<_> = all
             .iter()
             .flat_map(|action| action.keys.iter().map(|key| (*key, action.title.clone())))

@@ -11,8 +11,8 @@ use crate::helpers::in_window::{Windowed, apply, compare, press, settle, state};
 use axiscope::annotate::DiskFiles;
 use axiscope::annotate::{Annotation, Author, CloudId, Ends, Judgment, Store};
 use axiscope::app::true_axes::{EditView, Handle};
-use axiscope::app::{TrueAxesState, Command, Session};
-use axiscope::fruit::{Fruit, PeduncleChoice};
+use axiscope::app::{Command, Session, TrueAxesState};
+use axiscope::fruit::{Fruit, Request};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::DVec2;
@@ -126,7 +126,7 @@ fn on_disk(cloud: &Path) -> Option<Annotation> {
 
 /// An axis of somebody else, beside the cloud.
 fn set_as(name: &str, cloud: &Path, ends: Ends) {
-    let fruit = Fruit::read(cloud, None, &PeduncleChoice::Auto).expect("a cloud");
+    let fruit = Fruit::read(cloud, &Request::default()).expect("a cloud");
     let id = CloudId {
         file: cloud.file_name().expect("a name").to_string_lossy().into(),
         sha256: fruit.file.sha256.clone(),

@@ -12,7 +12,7 @@ use crate::ui::widgets::controls::{small, warning_color};
 use data::{DISTANCE_BIN_CM, Data, FIG_8_DEG, FIG_12_DEG, FIG_13_DEG, Mark};
 use guides::Guides;
 
-/// Which chart is shown.
+/// The charts of the panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Chart {
     #[default]
@@ -101,7 +101,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     Some(FolderAnswer::ShowView)
 }
 
-/// The clouds that have no error, each a link.
+/// Lists the clouds without an error, each as a link.
 fn failures(ui: &mut Ui, state: &State, data: &Data) -> Option<usize> {
     const NAMED: usize = 4;
     let mut chosen = None;
@@ -129,15 +129,15 @@ fn failures(ui: &mut Ui, state: &State, data: &Data) -> Option<usize> {
     chosen
 }
 
-/// Draws one chart; gives the cloud that was clicked.
+/// Draws one chart; returns the cloud that was clicked.
 fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> {
     let (x, y) = chart.axes();
-    // Another chart, or another set of clouds: what was zoomed into means nothing any more.
+    // For another chart or another set of clouds, the zoomed part is meaningless.
     let salt = (chart.title(), state.entries.len());
     let plot = Plot::new(salt)
         .x_axis_label(x)
         .y_axis_label(y)
-        // So that its name does not stand on the numbers in the first frame.
+        // Without this width, the axis' name covers the numbers in the first frame.
         .y_axis_min_width(46.0)
         .include_y(0.0)
         .allow_scroll(false)
@@ -192,13 +192,10 @@ fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> 
     (response.clicked() || by_key).then_some(mark)
 }
 
-/// Says which cloud is under the cursor.
+/// Shows a tooltip about the cloud under the cursor.
 fn explain(response: &Response, state: &State, place: usize) {
     let row = &state.many.rows[place];
-    let off = match (
-        row.error_deg(state.many.against),
-        row.failure(state.many.against),
-    ) {
+    let off = match (row.error_deg(state.many.against), row.failure(state.many.against)) {
         (Some(error), _) => format!(": {error:.1}° off"),
         (None, Some(why)) => format!(": {why}"),
         (None, None) => String::new(),
@@ -253,7 +250,7 @@ fn nearest(marks: &[Mark], transform: &egui_plot::PlotTransform, at: egui::Pos2)
 }
 
 fn clouds(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>, state: &State) {
-    // Many bars have no room for gaps.
+    // Many bars leave no room for gaps.
     let width = if data.bars.len() > 120 { 1.0 } else { 0.8 };
     let bar = |mark: &Mark| {
         let color = if current == Some(mark.place) {
@@ -281,7 +278,7 @@ fn clouds(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>, stat
     }
 }
 
-/// Clouds without an error, on the ground of the chart.
+/// Marks clouds without an error at the bottom of the chart.
 fn crosses(plot: &mut PlotUi<'_>, data: &Data) {
     let marks: Vec<[f64; 2]> = data.failures.iter().map(|mark| [mark.x, 0.0]).collect();
     let color = if plot.ctx().global_style().visuals.dark_mode {
