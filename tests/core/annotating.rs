@@ -283,7 +283,7 @@ fn a_file_that_another_program_puts_there_meanwhile_is_not_touched_either() {
         disk.write_file(&axis_path(1), &content);
         store.edit(judgment(2.0), NOW).unwrap();
         assert_eq!(disk.read_file(&axis_path(1)), Some(content));
-        assert!(matches!(store.notices(), [Notice::KeptBeside { .. }]));
+        assert!(matches!(store.notices(), [Notice::NotOverwritten { .. }]));
         assert_eq!(
             length(&Annotation::from_json(&disk.read_file(&axis_path(2)).unwrap()).unwrap()),
             2.0

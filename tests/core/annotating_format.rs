@@ -119,7 +119,7 @@ proptest! {
             bytes.retain(|&b| b != b'\n');
             journal.extend(bytes);
             let read = read_journal(&journal, &id().sha256, &ada()).unwrap();
-            prop_assert_eq!(read.deeds, whole as u64 - 1);
+            prop_assert_eq!(read.operations, whole as u64 - 1);
             prop_assert_eq!(read.history.undo_steps(), whole - 1);
         }
     }

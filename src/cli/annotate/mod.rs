@@ -185,7 +185,7 @@ fn follow(
             Err(error) => Err(anyhow::anyhow!(error)),
         };
         match done {
-            Ok(()) => writeln!(out, "saved {}", store.deeds())?,
+            Ok(()) => writeln!(out, "saved {}", store.operations())?,
             Err(error) if error.is::<StoreError>() => writeln!(out, "not saved: {error}")?,
             Err(error) => {
                 refused += 1;

@@ -1,20 +1,20 @@
 //! True axes by hand: their panel, what the mouse does in edit mode, the locked views, and the keys.
 
-mod agreement;
-mod ask;
+mod annotators;
+mod dialogs;
 mod hints;
-mod keys;
-mod locked;
-mod own;
+mod shortcuts;
+mod locked_views;
+mod own_axis;
 mod panel;
-mod stage;
+mod axis_view;
 
-pub(in crate::ui) use ask::{Farewell, ask_name};
+pub(in crate::ui) use dialogs::{CloseDecision, ask_name};
 pub(in crate::ui) use hints::show as hint_bar;
-pub(in crate::ui) use keys::{actions, history};
-pub(in crate::ui) use locked::show as locked_views;
+pub(in crate::ui) use shortcuts::{actions, history};
+pub(in crate::ui) use locked_views::show as locked_views;
 pub use panel::show;
-pub(in crate::ui) use stage::Stage;
+pub(in crate::ui) use axis_view::AxisView;
 
 use crate::app::{Command, TrueAxesCommand};
 use crate::render::Color;

@@ -2,7 +2,7 @@
 
 use egui::{Button, ComboBox, ProgressBar, RichText, Role as Spoken, TextEdit, Ui, WidgetInfo};
 
-use super::{agreement, own, say};
+use super::{annotators, own_axis, say};
 use crate::annotate::{Author, Role};
 use crate::app::true_axes::Saving;
 use crate::app::{Command, Source, State, TrueAxesCommand};
@@ -16,8 +16,8 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     mode(ui, state, commands);
     files(ui, state, commands);
     progress(ui, state, commands);
-    own::show(ui, state, commands);
-    agreement::show(ui, state, commands);
+    own_axis::show(ui, state, commands);
+    annotators::show(ui, state, commands);
 }
 
 fn who(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {

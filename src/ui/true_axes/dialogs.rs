@@ -56,7 +56,7 @@ pub(in crate::ui) fn ask_name(ctx: &egui::Context, state: &State, commands: &mut
 
 /// What is to be done with a window that is being closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::ui) enum Farewell {
+pub(in crate::ui) enum CloseDecision {
     /// Something is still being written.
     Wait,
     /// It stays open.
@@ -65,7 +65,7 @@ pub(in crate::ui) enum Farewell {
     Close,
 }
 
-impl Farewell {
+impl CloseDecision {
     /// What becomes of it; asks where an axis could not be saved.
     pub(in crate::ui) fn of(ctx: &egui::Context, state: &State, commands: &mut Vec<Command>) -> Self {
         let annotating = &state.true_axes;

@@ -4,7 +4,7 @@ use egui::{
     Color32, FontId, Frame, Panel, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::stage::Stage;
+use super::axis_view::AxisView;
 use crate::app::true_axes::EditView;
 use crate::app::{Command, State};
 use crate::render::Viewport;
@@ -56,13 +56,13 @@ fn one(
     response
         .widget_info(|| WidgetInfo::labeled(Role::Canvas, true, format!("Locked view: {}", view.title())));
     let viewport = Viewport::new(rect.width().into(), rect.height().into());
-    let stage = Stage {
+    let axis_view = AxisView {
         view,
         rect,
         camera: &cameras[i],
         viewport,
     };
-    let is_hovered = stage.interact(ui, &response, state, commands);
+    let is_hovered = axis_view.interact(ui, &response, state, commands);
     if is_gpu {
         let scale = ui.ctx().pixels_per_point();
         // At least a pixel, at most some thousand.
@@ -84,7 +84,7 @@ fn one(
     if view != EditView::EndOn {
         upright(ui, rect, quiet);
     }
-    stage.paint(ui, &response, state);
+    axis_view.paint(ui, &response, state);
     let stroke = Stroke::new(1.0, ui.visuals().widgets.noninteractive.bg_stroke.color);
     ui.painter().rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
     let at = rect.min + vec2(7.0, 5.0);

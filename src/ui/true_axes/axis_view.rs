@@ -13,14 +13,14 @@ use crate::ui::widgets::marks::color32;
 const HALO: Color32 = Color32::from_rgb(0x10, 0x12, 0x14);
 
 /// One view.
-pub(in crate::ui) struct Stage<'a> {
+pub(in crate::ui) struct AxisView<'a> {
     pub(in crate::ui) view: EditView,
     pub(in crate::ui) rect: Rect,
     pub(in crate::ui) camera: &'a Camera,
     pub(in crate::ui) viewport: Viewport,
 }
 
-impl Stage<'_> {
+impl AxisView<'_> {
     fn local(&self, at: Pos2) -> DVec2 {
         let from = at - self.rect.min;
         DVec2::new(from.x.into(), from.y.into())

@@ -2,7 +2,7 @@
 
 use egui::{Button, Grid, ProgressBar, RichText, Sense, Ui, vec2};
 
-use super::{say, stage::other_color};
+use super::{say, axis_view::other_color};
 use crate::annotate::{Annotation, CloudAgreement, FAR_OFF_DEG, Role};
 use crate::app::true_axes::{Decision, SetReport};
 use crate::app::{Command, State, TrueAxesCommand};

@@ -5,14 +5,8 @@ use egui::{Button, ComboBox, Response, Role as Spoken, TextEdit, Ui, WidgetInfo}
 use super::say;
 use crate::annotate::{Confidence, Ends, Judgment, Method, NUDGES_DEG, Pivot};
 use crate::app::true_axes::{Ghost, Turn};
-<<<<<<< HEAD
-use crate::app::{AnnotateCommand, Command, State};
-use crate::ui::widgets::controls::{Coordinates, Number, decimals, hint, row};
-=======
 use crate::app::{Command, State, TrueAxesCommand};
-use crate::ui::panels::parameters::Triple;
-use crate::ui::widgets::controls::{Number, hint, row};
->>>>>>> main
+use crate::ui::widgets::controls::{Coordinates, Number, decimals, hint, row};
 
 /// Shows it in edit mode.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
