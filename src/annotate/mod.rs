@@ -24,5 +24,5 @@ pub use disk::{DiskFiles, read_annotation};
 pub use ends::{Ends, EndsError, NUDGES_DEG, Pivot};
 pub use file::{FileError, LONGEST_FILE, now};
 pub use files::{Files, Notice, StoreError};
-pub use journal::{Operation, Journal, JournalError, operation_line, head_line, read_journal};
+pub use journal::{Journal, JournalError, Operation, head_line, operation_line, read_journal};
 pub use store::Store;

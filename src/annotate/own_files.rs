@@ -54,7 +54,11 @@ pub(super) fn find_journal(
     };
     let mut kept = Vec::new();
     let name = |copy| author.journal_path(cloud_path, copy);
-    let (path, journal) = choose_file(name, |path| candidate(files.read(path, u64::MAX), parse), &mut kept)?;
+    let (path, journal) = choose_file(
+        name,
+        |path| candidate(files.read(path, u64::MAX), parse),
+        &mut kept,
+    )?;
     if journal.is_none() {
         return Ok((path, Journal::default(), kept));
     }

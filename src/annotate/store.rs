@@ -7,8 +7,8 @@
 use std::path::{Path, PathBuf};
 
 use super::files::failed;
-use super::journal::{Operation, operation_line, head_line};
-use super::own_files::{COPIES, axis_of, choose_file, find_journal, candidate};
+use super::journal::{Operation, head_line, operation_line};
+use super::own_files::{COPIES, axis_of, candidate, choose_file, find_journal};
 use super::{Annotation, Author, CloudId, Files, Judgment, LONGEST_FILE, Method, Notice, StoreError};
 use crate::geometry::Unit;
 use crate::undo::History;
@@ -225,7 +225,8 @@ impl Store {
 
     fn journal_operation(&mut self, operation: Operation, now: &str) {
         self.operations += 1;
-        self.pending.extend(operation_line(self.operations, now, operation));
+        self.pending
+            .extend(operation_line(self.operations, now, operation));
     }
 
     /// Makes an annotation found in the axis file the newest edit, since another program wrote it. An annotation that

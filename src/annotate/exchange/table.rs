@@ -1,4 +1,4 @@
-//! Annotations as CSV: a row an annotator and cloud.
+//! Annotations as CSV: one row per annotator and cloud.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -6,23 +6,23 @@ use serde::{Deserialize, Serialize};
 use crate::annotate::{Annotation, Confidence, Ends, Judgment, Method, Role};
 use crate::geometry::Unit;
 
-/// Why a table is not understood.
+/// The reason why a table cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
-    /// It is no CSV, lacks a column, or has something else in a field.
+    /// The text is not CSV, a column is missing, or a field has another type.
     #[error("{0}")]
     Csv(#[from] csv::Error),
-    /// A row says nothing that can be used.
+    /// A row cannot be used.
     #[error("row {row}: {reason}")]
     Row {
-        /// Its number, from 1 after the head line.
+        /// The row's number, from 1 after the header.
         row: usize,
-        /// Why.
+        /// The reason, as the end of a sentence.
         reason: String,
     },
 }
 
-/// One row. Only the file, the annotator and the ends have to be there.
+/// The fields of a row. Only the columns of the file, the annotator and the ends are required.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Fields {
     file: String,
@@ -55,28 +55,28 @@ struct Fields {
     modified: Option<String>,
 }
 
-/// A row that was read, for a cloud that the caller finds.
+/// A row of a table. The caller finds its cloud.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportedRow {
     /// The cloud's file within the folder.
     pub file: String,
-    /// The hash of the cloud that it was made for, where the table says.
+    /// The hash of the cloud that the axis was set for, if the table has it.
     pub sha256: Option<String>,
-    /// Who set the axis.
+    /// The annotator's name.
     pub annotator: String,
-    /// In which role; an annotator's where the table does not say.
+    /// The annotator's role; [`Role::Annotator`] by default.
     pub role: Role,
-    /// The unit of the ends; the cloud's where the table does not say.
+    /// The unit of the ends; by default the cloud's.
     pub unit: Option<Unit>,
-    /// What was decided; [`Method::Imported`] where the table does not say how.
+    /// The judgment; its method is [`Method::Imported`] by default.
     pub judgment: Judgment,
 }
 
 impl ImportedRow {
-    /// The judgment with its ends in the cloud's unit.
+    /// Returns the judgment with its ends in the cloud's unit.
     ///
     /// # Errors
-    /// Where the conversion leaves no axis.
+    /// Returns an error if the converted ends are not an axis.
     pub fn in_unit(&self, unit: Unit) -> Result<Judgment, crate::annotate::EndsError> {
         let mut judgment = self.judgment.clone();
         if let (Some(ends), Some(own)) = (judgment.ends, self.unit)
@@ -92,10 +92,10 @@ impl ImportedRow {
     }
 }
 
-/// The annotations as CSV with a head line; each with the name of its cloud's file.
+/// Formats annotations as CSV with a header; each comes with the name of its cloud's file.
 ///
 /// # Errors
-/// Where memory runs out.
+/// Returns an error if CSV cannot be written to memory.
 pub fn write_table<'a>(
     annotations: impl IntoIterator<Item = (&'a str, &'a Annotation)>,
 ) -> Result<Vec<u8>, TableError> {
@@ -135,7 +135,7 @@ pub fn write_table<'a>(
 /// the others that [`write_table`] writes as there are.
 ///
 /// # Errors
-/// Where it is no such table, or a row has neither an axis nor says that it cannot be told.
+/// Returns an error if the text is not such a table, or if a row neither has an axis nor says that it cannot be told.
 pub fn read_table(bytes: &[u8]) -> Result<Vec<ImportedRow>, TableError> {
     // Spreadsheets begin their files with a byte-order mark.
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);

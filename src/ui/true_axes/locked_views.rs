@@ -1,4 +1,4 @@
-//! The three locked views beside the large one, without perspective: front, side and end-on.
+//! The three locked views beside the large one: orthographic, from the front, from the side and end-on.
 
 use egui::{
     Color32, FontId, Frame, Panel, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
@@ -10,13 +10,13 @@ use crate::app::{Command, State};
 use crate::render::Viewport;
 use crate::ui::inspector::paint::ViewCallback;
 
-/// Shows them in edit mode; says whether the cursor is in one that takes clicks.
+/// Shows the views in edit mode. Returns whether the cursor is in one that takes clicks.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, is_gpu: bool, commands: &mut Vec<Command>) -> bool {
     if !state.true_axes.is_editing || state.true_axes.locked.is_none() {
         return false;
     }
     let room = ui.available_rect_before_wrap();
-    // All three fit under one another, and the large view stays the largest.
+    // Narrow enough for three squares under one another, and for the large view to stay the largest.
     let width = (room.height() / 3.0).min(0.34 * room.width()).max(96.0);
     let panel = Panel::right("locked views")
         .resizable(true)
@@ -65,7 +65,7 @@ fn one(
     let is_hovered = axis_view.interact(ui, &response, state, commands);
     if is_gpu {
         let scale = ui.ctx().pixels_per_point();
-        // At least a pixel, at most some thousand.
+        // Between one pixel and some thousand, so the conversion is exact.
         let size_px = [rect.width(), rect.height()].map(|s| (s * scale).round().max(1.0) as u32);
         ui.painter().add(eframe::egui_wgpu::Callback::new_paint_callback(
             rect,
@@ -104,7 +104,7 @@ fn tip(view: EditView) -> &'static str {
     }
 }
 
-/// A thin line in the middle, by which an eye judges symmetry.
+/// Draws a thin vertical line in the middle, by which the eye judges symmetry.
 fn upright(ui: &Ui, rect: Rect, color: Color32) {
     let x = rect.center().x;
     let stroke = Stroke::new(1.0, color.gamma_multiply(0.25));

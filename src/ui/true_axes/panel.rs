@@ -1,4 +1,4 @@
-//! The panel of true axes: who sets them, whether they are saved, one's own, and everybody's.
+//! The panel of true axes: the annotator, the state of the files, the own axis, and the other annotators'.
 
 use egui::{Button, ComboBox, ProgressBar, RichText, Role as Spoken, TextEdit, Ui, WidgetInfo};
 
@@ -9,7 +9,7 @@ use crate::app::{Command, Source, State, TrueAxesCommand};
 use crate::text::sentence;
 use crate::ui::widgets::controls::{caution, hint};
 
-/// Shows the panel, and says what is wanted.
+/// Shows the panel, and appends the commands of its controls.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 4.0;
     who(ui, state, commands);
@@ -104,7 +104,7 @@ fn mode(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     }
 }
 
-/// Whether the axis is on the disk, and what ought to be known about its files.
+/// Shows whether the axis is saved, and the notices about its files.
 fn files(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let annotating = &state.true_axes;
     if annotating.is_editing && annotating.subject.is_some() {
