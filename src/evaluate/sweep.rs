@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{Examined, TruthChoice, reference_of};
+use super::{Examination, TruthChoice, reference_of};
 use crate::geometry::angle_between_lines_rad;
 use crate::method::{CandidateGrid, ParamError, Ranking, plane_terms, symmetry_axis};
 use crate::parallel::{Cancelled, Watch};
@@ -74,7 +74,7 @@ impl Sweep {
 /// # Errors
 /// Returns an error if a u is out of range, or the watch cancels the work.
 pub fn sweep_cloud(
-    examined: &Examined,
+    examined: &Examination,
     choice: TruthChoice,
     settings: &SweepSettings,
     watch: &dyn Watch,

@@ -105,7 +105,7 @@ fn method(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
         Some(Method::Equidistant) => *center = CenterMethod::Equidistant(search()),
         Some(Method::MeanRms) => *center = CenterMethod::MeanRms(search()),
         Some(Method::Sphere) => *center = CenterMethod::Sphere,
-        // From where it is.
+        // A given center begins where the computed one is.
         Some(Method::Given) => {
             *center = CenterMethod::Given(state.analysis().map_or(DVec3::ZERO, |a| a.center));
         }
