@@ -6,12 +6,12 @@ use crate::annotate::{Author, CloudAgreement, FAR_OFF_DEG, SetAgreement, read_an
 use crate::fruit::{AxisFiles, read_annotations, read_cloud};
 use crate::parallel::{Cancelled, Watch};
 
-/// How far annotators agree over the open clouds.
+/// The agreement of annotators over the open clouds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SetReport {
     /// The agreement.
     pub agreement: SetAgreement,
-    /// What could not be used, a sentence each.
+    /// The files that could not be used, a sentence each.
     pub warnings: Vec<String>,
 }
 
