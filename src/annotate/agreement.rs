@@ -1,4 +1,4 @@
-//! How far annotators agree about a cloud, and over a set of clouds.
+//! The agreement between annotators: over one cloud, and over a set of clouds.
 
 use std::collections::BTreeMap;
 
@@ -9,112 +9,111 @@ use super::{Annotation, Ends, Role};
 use crate::geometry::{angle_between_lines_rad, symmetric_eigen};
 use crate::method::{AxisEstimate, AxisSource};
 
-/// From how many degrees on somebody is far off, unless told otherwise.
+/// The default angle in degrees from which an annotator counts as far off.
 pub const FAR_OFF_DEG: f64 = 10.0;
 
-/// Two annotators of one cloud.
+/// The agreement of two annotators about one cloud.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Pair {
-    /// One, by name the first.
+    /// The annotator whose name sorts first.
     pub a: String,
-    /// The other.
+    /// The other annotator.
     pub b: String,
     /// The angle between their axes as lines, 0 to 90 degrees.
     pub angle_deg: f64,
-    /// Whether they call opposite ends the peduncle's.
+    /// Whether they put the peduncle at opposite ends.
     pub is_opposite: bool,
 }
 
 /// The mean of several axes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeanAxis {
-    /// The mean of their middles, in the file's unit and frame.
+    /// The mean of the axes' middles, in the file's unit and frame.
     pub origin: DVec3,
-    /// The unit direction that is closest to all of them as lines, towards the end that most call the
-    /// peduncle's.
+    /// The unit direction that is closest to all axes as lines; its sense is towards the end at which most of them have
+    /// the peduncle.
     pub direction: DVec3,
-    /// How many there are.
+    /// The number of axes.
     pub count: usize,
-    /// Root mean square of their angles to it, in degrees.
+    /// The root mean square of the axes' angles to the mean, in degrees.
     pub spread_deg: f64,
 }
 
-/// What the annotators say of one cloud.
+/// The agreement of all annotators about one cloud.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CloudAgreement {
     /// The cloud's file, as the caller names it.
     pub file: String,
-    /// Who has set an axis, by name.
+    /// The names of those who have set an axis, sorted.
     pub annotators: Vec<String>,
-    /// Who says that it cannot be told, by name.
+    /// The names of those who say that the axis cannot be told, sorted.
     pub cannot_tell: Vec<String>,
-    /// Every two who have set one.
+    /// Every two annotators who have set an axis.
     pub pairs: Vec<Pair>,
-    /// The largest of their angles.
+    /// The largest angle of a pair, in degrees; `None` with fewer than two axes.
     pub largest_deg: Option<f64>,
-    /// Who is farther off than the limit from more than half of the others. Where there are but two, both.
+    /// The names of those who are farther off than the limit from more than half of the others; of two, both.
     pub far_off: Vec<String>,
-    /// The mean of their axes; `None` without any, or where they contradict one another so that none
-    /// stands out.
+    /// The mean axis; `None` without axes, or if they contradict one another so that no direction stands out.
     pub mean: Option<MeanAxis>,
-    /// Whoever decided, where somebody has.
+    /// The adjudicator's name, if the cloud is adjudicated.
     pub adjudicator: Option<String>,
-    /// The adjudicated direction; `None` also where it was decided that it cannot be told.
+    /// The adjudicated direction; `None` also if the adjudicator decided that it cannot be told.
     pub adjudicated: Option<DVec3>,
-    /// Each annotator's angle to it, in degrees.
+    /// Each annotator's angle to the adjudicated direction, in degrees.
     pub to_adjudicated_deg: BTreeMap<String, f64>,
 }
 
-/// One annotator over a set of clouds.
+/// The summary of one annotator over a set of clouds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AnnotatorSummary {
-    /// The name.
+    /// The annotator's name.
     pub annotator: String,
-    /// Clouds with an axis of theirs.
+    /// The number of clouds with an axis of this annotator.
     pub clouds: usize,
-    /// Clouds where they say that it cannot be told.
+    /// The number of clouds whose axis cannot be told, in their opinion.
     pub cannot_tell: usize,
-    /// Clouds where they are far off.
+    /// The number of clouds on which they are far off.
     pub far_off: usize,
-    /// The mean angle to the other annotators, in degrees; `None` where nobody else has set an axis.
+    /// The mean angle to the other annotators, in degrees; `None` if nobody else has set an axis.
     pub mean_deg: Option<f64>,
-    /// The same to the adjudicated axes.
+    /// The mean angle to the adjudicated axes, in degrees.
     pub to_adjudicated_deg: Option<f64>,
 }
 
-/// Two annotators over a set of clouds.
+/// The summary of two annotators over a set of clouds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairSummary {
-    /// One, by name the first.
+    /// The annotator whose name sorts first.
     pub a: String,
-    /// The other.
+    /// The other annotator.
     pub b: String,
-    /// Clouds with an axis of both.
+    /// The number of clouds with an axis of both.
     pub clouds: usize,
-    /// The mean of the angles between them, in degrees.
+    /// The mean of the angles between their axes, in degrees.
     pub mean_deg: f64,
-    /// The largest.
+    /// The largest of these angles, in degrees.
     pub largest_deg: f64,
-    /// Clouds where they call opposite ends the peduncle's.
+    /// The number of clouds on which they put the peduncle at opposite ends.
     pub opposite: usize,
 }
 
-/// A set of clouds: who agrees with whom.
+/// The agreement of all annotators over a set of clouds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SetAgreement {
-    /// From how many degrees on somebody is far off.
+    /// The angle in degrees from which an annotator counts as far off.
     pub far_off_deg: f64,
-    /// Each cloud, in the caller's order.
+    /// The agreement about each cloud, in the caller's order.
     pub clouds: Vec<CloudAgreement>,
-    /// Each annotator, by name.
+    /// The summary of each annotator, sorted by name.
     pub annotators: Vec<AnnotatorSummary>,
-    /// Every two who have a cloud in common, by name.
+    /// The summary of every two annotators who have a cloud in common, sorted by name.
     pub pairs: Vec<PairSummary>,
 }
 
-/// The mean axis: the direction that minimizes the sum of the squared sines of the angles to it, which
-/// is the largest eigenvector of Σ d·dᵀ. `None` of nothing, and of axes among which no direction stands
-/// out, such as two at right angles.
+/// Computes the mean axis. Its direction minimizes the sum of the squared sines of the angles to the axes; it is the
+/// eigenvector of the largest eigenvalue of Σ d·dᵀ. Returns `None` without axes, and for axes among which no direction
+/// stands out, such as two at right angles.
 pub fn mean_axis<'a>(axes: impl IntoIterator<Item = &'a Ends>) -> Option<MeanAxis> {
     let axes: Vec<&Ends> = axes.into_iter().collect();
     let count = axes.len();
@@ -127,13 +126,13 @@ pub fn mean_axis<'a>(axes: impl IntoIterator<Item = &'a Ends>) -> Option<MeanAxi
         }
     }
     let (values, vectors) = symmetric_eigen(sum);
-    // Of n axes the values add up to n; equal ones leave the direction to rounding.
+    // The eigenvalues of n axes add up to n. If the two largest are equal, rounding would decide the direction.
     if count == 0 || values[2] - values[1] < 1e-6 * count as f64 {
         return None;
     }
     let line = vectors[2];
     let toward = directions.iter().map(|d| d.dot(line).signum()).sum::<f64>();
-    // A tie between the senses is broken by the first.
+    // A tie between the two senses is broken by the first axis.
     let sense = if toward == 0.0 {
         directions[0].dot(line)
     } else {
@@ -151,9 +150,8 @@ pub fn mean_axis<'a>(axes: impl IntoIterator<Item = &'a Ends>) -> Option<MeanAxi
     })
 }
 
-/// A cloud's annotations as axes to compare with: each annotator's, then their mean, then the
-/// adjudicated one, as far as there are any. Where it was decided that the axis cannot be told, there is
-/// no mean either.
+/// Returns a cloud's annotations as axes to compare with: each annotator's, then their mean, then the adjudicated one, as
+/// far as they exist. If the adjudicator decided that the axis cannot be told, there is no mean either.
 pub fn estimates(annotations: &[Annotation]) -> Vec<AxisEstimate> {
     let of = |role: Role| annotations.iter().filter(move |a| a.role == role);
     let mut axes: Vec<AxisEstimate> = of(Role::Annotator).filter_map(Annotation::estimate).collect();
@@ -170,7 +168,7 @@ pub fn estimates(annotations: &[Annotation]) -> Vec<AxisEstimate> {
 }
 
 impl CloudAgreement {
-    /// Compares a cloud's annotations, one an annotator.
+    /// Compares a cloud's annotations, one per annotator.
     pub fn of(file: &str, annotations: &[Annotation], far_off_deg: f64) -> Self {
         let mut by_name: Vec<&Annotation> =
             annotations.iter().filter(|a| a.role == Role::Annotator).collect();
@@ -229,7 +227,7 @@ impl CloudAgreement {
     }
 }
 
-/// A mean that grows.
+/// A running mean and maximum.
 #[derive(Default)]
 struct Mean {
     sum: f64,
@@ -250,7 +248,7 @@ impl Mean {
 }
 
 impl SetAgreement {
-    /// Sums up the clouds of a set.
+    /// Summarizes the clouds of a set.
     pub fn of(clouds: Vec<CloudAgreement>, far_off_deg: f64) -> Self {
         let mut annotators: BTreeMap<&str, (AnnotatorSummary, Mean, Mean)> = BTreeMap::new();
         let mut pairs: BTreeMap<(&str, &str), (Mean, usize)> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! What somebody says of a cloud's axis.
+//! One annotation: an annotator's axis of a cloud, with its confidence and its origin.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,17 +6,8 @@ use super::{Author, Ends, Role};
 use crate::geometry::Unit;
 use crate::method::{AxisEstimate, AxisSource};
 
-/// The axis, or that it cannot be told.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Finding {
-    /// Both ends.
-    Axis(Ends),
-    /// The cloud does not show it.
-    CannotTell,
-}
-
-/// Where the annotator began. An axis that was shown first draws the hand that follows it, so it is
-/// recorded for good: nudging a computed axis does not make it one set by hand.
+/// The starting point of an annotation. An axis that is shown first biases the one set after it, so the starting point is
+/// recorded for good: a computed axis that was nudged does not become one set by hand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -24,19 +15,19 @@ pub enum Method {
     /// Both ends were set by hand.
     #[cfg_attr(feature = "cli", value(skip))]
     ByHand,
-    /// From the peduncle's axis (§ 3.2).
+    /// The annotator started from the peduncle's axis (§ 3.2).
     #[cfg_attr(feature = "cli", value(name = "peduncle"))]
     FromPeduncle,
-    /// From the method's own axis (Eq. 16).
+    /// The annotator started from the computed axis (Eq. 16).
     #[cfg_attr(feature = "cli", value(name = "computed"))]
     FromComputed,
-    /// From another program.
+    /// The axis was imported from another program.
     #[cfg_attr(feature = "cli", value(skip))]
     Imported,
 }
 
 impl Method {
-    /// The name that files and tables use.
+    /// Returns the name that files and tables use.
     pub fn name(self) -> &'static str {
         match self {
             Self::ByHand => "by-hand",
@@ -47,59 +38,59 @@ impl Method {
     }
 }
 
-/// How sure somebody is, from 0 (a guess) to 1 (certain).
+/// An annotator's confidence, from 0 (a guess) to 1 (certain).
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct Confidence(f64);
 
 impl Confidence {
-    /// In a word: low.
+    /// The value of the word "low".
     pub const LOW: Self = Self(0.25);
-    /// In a word: medium.
+    /// The value of the word "medium".
     pub const MEDIUM: Self = Self(0.5);
-    /// In a word: high.
+    /// The value of the word "high".
     pub const HIGH: Self = Self(0.75);
 
-    /// A confidence; `None` outside 0 to 1.
+    /// Creates a confidence; `None` outside 0 to 1.
     pub fn new(value: f64) -> Option<Self> {
         (0.0..=1.0).contains(&value).then_some(Self(value))
     }
 
-    /// From 0 to 1.
+    /// Returns the value, 0 to 1.
     pub fn value(self) -> f64 {
         self.0
     }
 }
 
-/// What an annotator decides; the rest of an [`Annotation`] is bookkeeping.
+/// An annotator's judgment of a cloud. The rest of an [`Annotation`] is bookkeeping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgment {
-    /// The axis, or that it cannot be told.
-    pub finding: Finding,
-    /// Where the annotator began.
+    /// The axis; `None` if the cloud does not show it.
+    pub ends: Option<Ends>,
+    /// The starting point of the axis.
     pub method: Method,
-    /// How sure the annotator is, where that was said.
+    /// The annotator's confidence, if stated.
     pub confidence: Option<Confidence>,
-    /// Anything else, in words.
+    /// A note in the annotator's words; empty without one.
     pub note: String,
-    /// Whether nothing computed was shown meanwhile. [`super::Store`] keeps it only where it can be true:
-    /// set by hand, and after nothing but blind edits, undone ones included.
+    /// Whether the annotator saw no computed axis. [`super::Store`] clears it unless it can be true: the axis is set by
+    /// hand, and all edits before it were blind, undone ones included.
     pub blind: bool,
 }
 
 impl Judgment {
-    /// An axis set by hand, with nothing else said.
+    /// Creates the judgment of an axis set by hand, without confidence or note.
     pub fn by_hand(ends: Ends) -> Self {
-        Self::bare(Finding::Axis(ends))
+        Self::bare(Some(ends))
     }
 
-    /// That the axis cannot be told, with nothing else said.
+    /// Creates the judgment that the axis cannot be told, without confidence or note.
     pub fn cannot_tell() -> Self {
-        Self::bare(Finding::CannotTell)
+        Self::bare(None)
     }
 
-    fn bare(finding: Finding) -> Self {
+    fn bare(ends: Option<Ends>) -> Self {
         Self {
-            finding,
+            ends,
             method: Method::ByHand,
             confidence: None,
             note: String::new(),
@@ -108,7 +99,7 @@ impl Judgment {
     }
 }
 
-/// Which cloud an axis belongs to.
+/// The identity of the cloud that an axis belongs to.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CloudId {
@@ -118,43 +109,40 @@ pub struct CloudId {
     pub sha256: String,
 }
 
-/// One annotator's axis of one cloud: what an axis file holds.
+/// One annotator's axis of one cloud: the content of an axis file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Annotation {
     /// The cloud.
     pub cloud: CloudId,
-    /// What a coordinate of the cloud's file, and of this axis, was taken for.
+    /// The unit in which the coordinates of the cloud's file, and of this axis, were taken.
     pub unit: Unit,
-    /// Who set it.
+    /// The annotator's name.
     pub annotator: String,
-    /// In which role.
+    /// The annotator's role.
     pub role: Role,
-    /// What was decided.
+    /// The judgment.
     pub judgment: Judgment,
-    /// When the annotator first set an axis of this cloud (RFC 3339).
+    /// The time of the annotator's first axis of this cloud (RFC 3339).
     pub created: String,
-    /// When this one was set (RFC 3339).
+    /// The time of this axis (RFC 3339).
     pub modified: String,
     /// The program and version that wrote it.
     pub program: String,
 }
 
 impl Annotation {
-    /// The axis, unless it cannot be told.
+    /// Returns the ends of the axis; `None` if it cannot be told.
     pub fn ends(&self) -> Option<&Ends> {
-        match &self.judgment.finding {
-            Finding::Axis(ends) => Some(ends),
-            Finding::CannotTell => None,
-        }
+        self.judgment.ends.as_ref()
     }
 
-    /// Whether it is this author's.
+    /// Returns whether this author made the annotation.
     pub fn is_by(&self, author: &Author) -> bool {
-        // Whoever decides, there is one decision a cloud.
+        // A cloud has one adjudicated axis, whoever set it.
         self.role == author.role() && (self.role == Role::Adjudicator || self.annotator == author.name())
     }
 
-    /// The axis as one estimate among several, through the middle of its ends.
+    /// Returns the axis as one estimate among several, through the middle of its ends.
     pub fn estimate(&self) -> Option<AxisEstimate> {
         self.ends().map(|ends| AxisEstimate {
             source: match self.role {

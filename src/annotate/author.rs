@@ -1,21 +1,21 @@
-//! Who sets an axis, and how that stands in the name of a file.
+//! The author of an axis, and the names of the author's files.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-/// In which role somebody sets an axis.
+/// The role in which an axis is set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Role {
-    /// One opinion among several.
+    /// An annotator, whose axis is one opinion among several.
     Annotator,
-    /// The decision after the annotators: the axis that counts.
+    /// The adjudicator, whose axis decides between the annotators' and is the one that counts.
     Adjudicator,
 }
 
-/// Why a name cannot be an annotator's.
+/// The reason why a name cannot be an annotator's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
     /// It has no letter or digit.
@@ -42,25 +42,25 @@ pub struct Author {
     role: Role,
 }
 
-/// What the adjudicated axis is called in a file's name.
+/// The author's part in the names of the adjudicated axis's files.
 const ADJUDICATED: &str = "adjudicated";
 
 impl Author {
     /// The longest name in bytes.
     pub const LONGEST: usize = 64;
 
-    /// An annotator. White space around the name is dropped.
+    /// Creates an annotator. White space around the name is dropped.
     ///
     /// # Errors
-    /// Where the name is empty, too long, a mere number, reserved, or not one line.
+    /// Returns an error if the name is empty, too long, a number, reserved, or not one line.
     pub fn annotator(name: &str) -> Result<Self, NameError> {
         Self::new(name, Role::Annotator)
     }
 
-    /// Whoever decides between the annotators. Each cloud has one adjudicated axis, whoever set it.
+    /// Creates an adjudicator, who decides between the annotators. Each cloud has one adjudicated axis, whoever set it.
     ///
     /// # Errors
-    /// As for an annotator.
+    /// Returns an error as [`Author::annotator`] does.
     pub fn adjudicator(name: &str) -> Result<Self, NameError> {
         Self::new(name, Role::Adjudicator)
     }
@@ -99,9 +99,9 @@ impl Author {
         self.role
     }
 
-    /// How the author stands in a file's name: letters and digits of any script, `-` and `_` as they
-    /// are, every run of other characters as one `-`. Two names that look alike there are told apart
-    /// by what the files hold. The adjudicated axis is `adjudicated`, whoever set it.
+    /// Returns the author's part of a file name: letters and digits of any script, `-` and `_` as they are, every run of
+    /// other characters as one `-`. Two names with the same slug are told apart by the content of the files. An
+    /// adjudicator's slug is `adjudicated`, whatever the name.
     pub fn slug(&self) -> String {
         match self.role {
             Role::Annotator => slug(&self.name),
@@ -131,9 +131,11 @@ impl Author {
     }
 }
 
-const AXIS_ENDING: &str = ".axis.json";
+/// The ending of the names of axis files.
+pub const AXIS_ENDING: &str = ".axis.json";
 
-/// What a file's name says, where it is one of a cloud's axis files: the slug and the copy.
+/// Parses the name of an axis file: the slug and the number of the copy. Returns `None` if it is not an axis file of this
+/// cloud.
 pub fn axis_file_of(cloud: &Path, name: &OsStr) -> Option<(String, u32)> {
     let stem = cloud.file_stem()?.to_str()?;
     let middle = name
@@ -145,7 +147,7 @@ pub fn axis_file_of(cloud: &Path, name: &OsStr) -> Option<(String, u32)> {
         None => (middle, 1),
         Some((slug, copy)) => (slug, copy.parse().ok().filter(|&copy| copy > 1)?),
     };
-    // A number alone is a copy of a longer named cloud's.
+    // A number in place of the slug: the file is a copy that belongs to a cloud with a longer name.
     let is_slug = !slug.is_empty() && !slug.contains('.') && slug.chars().any(|c| !c.is_ascii_digit());
     is_slug.then(|| (slug.to_owned(), copy))
 }

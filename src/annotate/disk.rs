@@ -1,20 +1,20 @@
-//! An annotator's files on a disk: the only place that writes them, and slowly enough to be sure.
+//! An annotator's files on a disk. Every write is synced before it counts as done.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use crate::annotate::Files;
+use super::{Annotation, Files, LONGEST_FILE};
 
 /// The files of one [`crate::annotate::Store`].
 #[derive(Debug, Default)]
 pub struct DiskFiles {
-    /// The journal, open and locked.
+    /// The journal, opened and locked.
     journal: Option<(PathBuf, File)>,
 }
 
 impl DiskFiles {
-    /// The open journal, where this is it.
+    /// Returns the open journal if this is its path.
     fn open_journal(&mut self, path: &Path) -> Option<&mut File> {
         self.journal
             .as_mut()
@@ -26,7 +26,7 @@ impl DiskFiles {
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Err(io::ErrorKind::ResourceBusy.into()),
-            // Some network drives have no locks: better without one than not at all.
+            // Some network drives have no locks: annotating without a lock is better than not at all.
             Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
             Err(TryLockError::Error(error)) => return Err(error),
         }
@@ -38,13 +38,13 @@ impl DiskFiles {
 impl Files for DiskFiles {
     fn read(&mut self, path: &Path, longest: u64) -> io::Result<Option<Vec<u8>>> {
         let mut bytes = Vec::new();
-        // Where a lock keeps everybody else's handles away, ours can still read.
+        // On Windows a lock keeps all other handles from reading, our own second one too.
         if let Some(journal) = self.open_journal(path) {
             journal.seek(SeekFrom::Start(0))?;
             journal.read_to_end(&mut bytes)?;
             return Ok(Some(bytes));
         }
-        // Before the file is opened: opening a pipe waits for somebody to write into it.
+        // Checked before the file is opened, as opening a named pipe blocks until another program writes to it.
         let metadata = match std::fs::metadata(path) {
             Ok(metadata) => metadata,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
@@ -94,7 +94,7 @@ impl Files for DiskFiles {
         drop(file);
         let done = written.and_then(|()| std::fs::rename(&aside, path));
         if done.is_err() {
-            // The first failure is the one to tell.
+            // The first error is the one to report.
             let _ = std::fs::remove_file(&aside);
         }
         done?;
@@ -115,22 +115,33 @@ impl Files for DiskFiles {
     }
 }
 
-/// The path with a further ending: for what is written before it is renamed, which nobody else does,
-/// since the journal is locked.
+/// Reads an axis file, whoever's and of whatever cloud it is.
+///
+/// # Errors
+/// Returns the reason, as the end of a sentence, if the file cannot be read or is not an axis file.
+pub fn read_annotation(path: &Path) -> Result<Annotation, String> {
+    let bytes = DiskFiles::default().read(path, LONGEST_FILE);
+    let bytes = bytes.map_err(|error| error.to_string())?.unwrap_or_default();
+    Annotation::from_json(&bytes).map_err(|error| error.to_string())
+}
+
+/// Returns the path of a temporary file in the same folder. The name is fixed, so that a program that is killed again and
+/// again leaves one such file at most; no other program writes it, as the journal is locked. (The crates `tempfile` and
+/// `atomic-write-file` choose random names, and the former creates the file readable by its owner alone.)
 fn beside(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
     name.push(ending);
     path.with_file_name(name)
 }
 
-/// A new name is on the disk once its folder is.
+/// Syncs the folder of a path: a new name is on the disk only once its folder is.
 #[cfg(unix)]
 fn sync_folder_of(path: &Path) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     File::open(folder.unwrap_or(Path::new(".")))?.sync_all()
 }
 
-/// Elsewhere folders cannot be opened, and the system sees to it.
+/// Does nothing on systems where a folder cannot be opened as a file; they write names through.
 #[cfg(not(unix))]
 fn sync_folder_of(_: &Path) -> io::Result<()> {
     Ok(())

@@ -1,38 +1,38 @@
-//! A true axis as its two ends, and the small changes that move it. All of it pure.
+//! A true axis given by its two ends, and the edits that move it, as pure functions.
 
 use glam::{DQuat, DVec3};
 
 use crate::geometry::angle_between_directions_rad;
 
-/// The steps of the nudges that turn an axis, in degrees.
+/// The steps by which a nudge turns an axis, in degrees.
 pub const NUDGES_DEG: [f64; 3] = [0.1, 1.0, 5.0];
 
-/// Why two points are no axis.
+/// The reason why two points are not an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum EndsError {
     /// A coordinate is infinite or no number.
     #[error("a coordinate of the axis is not finite")]
     NotFinite,
-    /// They are one point, to what a coordinate can tell.
+    /// The two points are equal, within the precision of a coordinate.
     #[error("both ends of the axis are one point")]
     OnePoint,
-    /// There is no direction to turn about or to point along.
+    /// The direction to turn about or to point along has no length.
     #[error("a direction of no length")]
     NoDirection,
-    /// An axis cannot be made shorter than nothing.
+    /// Shortening would leave nothing of the axis.
     #[error("the axis would have no length left")]
     NoLengthLeft,
 }
 
-/// The two ends of a fruit's axis, in the unit and frame of the cloud's file. Both are finite and
-/// they are apart.
+/// The two ends of a fruit's axis, in the unit and frame of the cloud's file. They are finite
+/// and distinct.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ends {
     peduncle_base: DVec3,
     blossom_end: DVec3,
 }
 
-/// What stays where it is when an axis is turned or lengthened.
+/// The point that stays in place when an axis is turned or lengthened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Pivot {
@@ -48,10 +48,10 @@ pub enum Pivot {
 }
 
 impl Ends {
-    /// An axis from the peduncle's base to the blossom end.
+    /// Creates an axis from the peduncle's base to the blossom end.
     ///
     /// # Errors
-    /// Where a coordinate is not finite, or both are one point.
+    /// Returns an error if a coordinate is not finite, or if the ends are one point.
     pub fn new(peduncle_base: DVec3, blossom_end: DVec3) -> Result<Self, EndsError> {
         if !peduncle_base.is_finite() || !blossom_end.is_finite() {
             return Err(EndsError::NotFinite);
@@ -71,11 +71,11 @@ impl Ends {
         })
     }
 
-    /// A start for an annotator: the stretch of the line through `origin` along `toward_peduncle` that
-    /// `points` span, but for their outermost 2 % on either side.
+    /// Creates a starting axis for an annotator: the segment of the line through `origin` along `toward_peduncle` that
+    /// `points` span, without their outermost 2 % at either end.
     ///
     /// # Errors
-    /// Where the direction has no length, or the points span nothing along it.
+    /// Returns an error if the direction has no length, or if the points have no extent along it.
     pub fn spanning(points: &[DVec3], origin: DVec3, toward_peduncle: DVec3) -> Result<Self, EndsError> {
         let direction = toward_peduncle.try_normalize().ok_or(EndsError::NoDirection)?;
         let mut along: Vec<f64> = points.iter().map(|&p| (p - origin).dot(direction)).collect();
@@ -88,7 +88,7 @@ impl Ends {
         Self::new(origin + high * direction, origin + low * direction)
     }
 
-    /// Where the peduncle leaves the fruit.
+    /// The point at which the peduncle leaves the fruit.
     pub fn peduncle_base(&self) -> DVec3 {
         self.peduncle_base
     }
@@ -103,7 +103,7 @@ impl Ends {
         self.peduncle_base.midpoint(self.blossom_end)
     }
 
-    /// The unit direction from the blossom end towards the peduncle, as a simulated truth's.
+    /// The unit direction from the blossom end to the peduncle's base, the sense that a simulated truth has too.
     pub fn direction(&self) -> DVec3 {
         (self.peduncle_base - self.blossom_end).normalize()
     }
@@ -113,7 +113,7 @@ impl Ends {
         self.peduncle_base.distance(self.blossom_end)
     }
 
-    /// The same line with its ends exchanged.
+    /// Returns the axis with its ends exchanged.
     #[must_use]
     pub fn flipped(&self) -> Self {
         Self {
@@ -122,15 +122,13 @@ impl Ends {
         }
     }
 
-    /// The two unit directions across the axis that an annotator who looks along `view_ray` wants to
-    /// turn it about. About the first the axis leans towards the viewer or away; about the second it
-    /// turns within the picture. Where the axis is seen end-on they are any two.
-    ///
-    /// (The directions across the *view*, its right and its up, the viewer knows itself.)
+    /// Returns the two unit directions, perpendicular to the axis, about which an annotator who looks along `view_ray`
+    /// turns it. About the first the axis leans towards the viewer or away; about the second it turns within the picture.
+    /// For an axis seen end-on they are any two such directions.
     pub fn across(&self, view_ray: DVec3) -> [DVec3; 2] {
         let direction = self.direction();
         let across = direction.cross(view_ray.normalize_or_zero());
-        // A sine of 10⁻⁶ tells no direction that an eye could.
+        // With a sine below 10⁻⁶ the axis is seen end-on, and the cross product is rounding.
         let lean = if across.length() > 1e-6 {
             across.normalize()
         } else {
@@ -139,10 +137,10 @@ impl Ends {
         [lean, lean.cross(direction)]
     }
 
-    /// Turned by `degrees` about the direction `about`, right-handed. Lengths stay.
+    /// Turns the axis by `degrees` about the direction `about`, right-handed. Its length stays.
     ///
     /// # Errors
-    /// Where `about` has no length, or a number is not finite.
+    /// Returns an error if `about` has no length, or if a number is not finite.
     pub fn turned(&self, about: DVec3, degrees: f64, pivot: Pivot) -> Result<Self, EndsError> {
         let about = about.try_normalize().ok_or(EndsError::NoDirection)?;
         if !degrees.is_finite() {
@@ -158,18 +156,18 @@ impl Ends {
         }
     }
 
-    /// Moved as a whole, in the file's unit.
+    /// Moves the whole axis by a vector in the file's unit.
     ///
     /// # Errors
-    /// Where a number is not finite.
+    /// Returns an error if a number is not finite.
     pub fn shifted(&self, by: DVec3) -> Result<Self, EndsError> {
         Self::new(self.peduncle_base + by, self.blossom_end + by)
     }
 
-    /// Longer by `by`, in the file's unit; shorter where that is negative.
+    /// Lengthens the axis by `by`, in the file's unit; a negative length shortens it.
     ///
     /// # Errors
-    /// Where nothing of the axis would be left, or a number is not finite.
+    /// Returns an error if nothing of the axis would be left, or if a number is not finite.
     pub fn lengthened(&self, by: f64, pivot: Pivot) -> Result<Self, EndsError> {
         if !by.is_finite() {
             return Err(EndsError::NotFinite);
@@ -186,33 +184,33 @@ impl Ends {
         Self::new(self.peduncle_base + base, self.blossom_end + blossom)
     }
 
-    /// The same middle and length in another direction, towards the peduncle.
+    /// Turns the axis about its middle to another direction, towards the peduncle. Its length stays.
     ///
     /// # Errors
-    /// Where that has no length, or a number is not finite.
+    /// Returns an error if the direction has no length, or if a number is not finite.
     pub fn pointing(&self, toward_peduncle: DVec3) -> Result<Self, EndsError> {
         let half = 0.5 * self.length() * toward_peduncle.try_normalize().ok_or(EndsError::NoDirection)?;
         Self::new(self.middle() + half, self.middle() - half)
     }
 
-    /// With the peduncle's base elsewhere.
+    /// Returns the axis with another peduncle base.
     ///
     /// # Errors
-    /// Where that is no axis.
+    /// Returns an error as [`Ends::new`] does.
     pub fn with_peduncle_base(&self, place: DVec3) -> Result<Self, EndsError> {
         Self::new(place, self.blossom_end)
     }
 
-    /// With the blossom end elsewhere.
+    /// Returns the axis with another blossom end.
     ///
     /// # Errors
-    /// Where that is no axis.
+    /// Returns an error as [`Ends::new`] does.
     pub fn with_blossom_end(&self, place: DVec3) -> Result<Self, EndsError> {
         Self::new(self.peduncle_base, place)
     }
 
-    /// The angle to another axis as directions, in degrees from 0 to 180: above 90 they point to
-    /// opposite ends.
+    /// Returns the angle to another axis as directions, 0 to 180 degrees; above 90 the axes have the peduncle at opposite
+    /// ends.
     pub fn angle_to_deg(&self, other: &Self) -> f64 {
         angle_between_directions_rad(self.direction(), other.direction()).to_degrees()
     }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Annotation, CloudId, Confidence, Ends, EndsError, Finding, Judgment, Method, Role};
+use super::{Annotation, CloudId, Confidence, Ends, EndsError, Judgment, Method, Role};
 use crate::geometry::{Unit, angle_between_directions_rad};
 
 /// The name of the format, without its version.
@@ -15,22 +15,22 @@ const VERSION: u32 = 1;
 /// The longest file that is read. Ours have a thousand bytes, a long note aside.
 pub const LONGEST_FILE: u64 = 1 << 20;
 
-/// Why an axis file is not understood.
+/// The reason why an axis file cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FileError {
-    /// It is no JSON, or has other fields, or another type in one.
+    /// The text is not JSON, or a field is missing, unknown or of another type.
     #[error("it is no axis file: {0}")]
     Malformed(String),
-    /// A newer program wrote it.
+    /// A newer version of the program wrote the file.
     #[error("it is of version {version} of the format, and this program knows version {VERSION}")]
     Newer {
-        /// Its version.
+        /// The file's version.
         version: u32,
     },
-    /// Both ends are no axis.
+    /// The two ends are not an axis.
     #[error("its ends are no axis: {0}")]
     Ends(#[from] EndsError),
-    /// Fields say different things.
+    /// Two fields contradict each other, or a value is out of its range.
     #[error("it contradicts itself: {0}")]
     Contradiction(&'static str),
 }
@@ -47,7 +47,7 @@ struct Fields {
     annotator: String,
     role: Role,
     cannot_tell: bool,
-    // Named so, a field may be null, but not missing.
+    // Without this attribute serde would take a missing field for null.
     #[serde(deserialize_with = "Option::deserialize")]
     peduncle_base: Option<DVec3>,
     #[serde(deserialize_with = "Option::deserialize")]
@@ -70,14 +70,14 @@ enum Frame {
     File,
 }
 
-/// What is read whatever the version.
+/// The field that is read first, whatever the version.
 #[derive(Deserialize)]
 struct Head {
     schema: String,
 }
 
 impl Annotation {
-    /// The content of the axis file.
+    /// Formats the content of the axis file.
     pub fn to_json(&self) -> String {
         // Strings and finite numbers cannot fail to become JSON.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
@@ -86,7 +86,7 @@ impl Annotation {
     /// Reads an axis file.
     ///
     /// # Errors
-    /// Where it is of a newer version, is no such file, or contradicts itself.
+    /// Returns an error if the file is of a newer version, is not an axis file, or contradicts itself.
     pub fn from_json(text: &[u8]) -> Result<Self, FileError> {
         let malformed = |error: serde_json::Error| FileError::Malformed(error.to_string());
         let head: Head = serde_json::from_slice(text).map_err(malformed)?;
@@ -105,16 +105,12 @@ impl Annotation {
 
     fn fields(&self) -> Fields {
         let Judgment {
-            finding,
+            ends,
             method,
             confidence,
             note,
             blind,
         } = self.judgment.clone();
-        let ends = match finding {
-            Finding::Axis(ends) => Some(ends),
-            Finding::CannotTell => None,
-        };
         Fields {
             schema: format!("{FORMAT}{VERSION}"),
             program: self.program.clone(),
@@ -137,24 +133,24 @@ impl Annotation {
     }
 }
 
-/// Half a thousandth of a degree: a direction written with few digits still agrees with its ends.
+/// The tolerance of a direction, about 0.0006°: one written with few digits still agrees with its ends.
 const SAME_DIRECTION_RAD: f64 = 1e-5;
 
 impl TryFrom<Fields> for Annotation {
     type Error = FileError;
 
     fn try_from(fields: Fields) -> Result<Self, FileError> {
-        let finding = match (fields.cannot_tell, fields.peduncle_base, fields.blossom_end) {
-            (false, Some(base), Some(blossom)) => Finding::Axis(Ends::new(base, blossom)?),
-            (true, None, None) => Finding::CannotTell,
+        let ends = match (fields.cannot_tell, fields.peduncle_base, fields.blossom_end) {
+            (false, Some(base), Some(blossom)) => Some(Ends::new(base, blossom)?),
+            (true, None, None) => None,
             (true, ..) => return Err(FileError::Contradiction("it has an end, and none can be told")),
             (false, ..) => return Err(FileError::Contradiction("an end is missing")),
         };
-        let agrees = match (&finding, fields.direction) {
-            (Finding::Axis(ends), Some(direction)) => {
+        let agrees = match (&ends, fields.direction) {
+            (Some(ends), Some(direction)) => {
                 angle_between_directions_rad(ends.direction(), direction) < SAME_DIRECTION_RAD
             }
-            (Finding::CannotTell, None) => true,
+            (None, None) => true,
             _ => false,
         };
         if !agrees {
@@ -176,7 +172,7 @@ impl TryFrom<Fields> for Annotation {
             annotator: fields.annotator,
             role: fields.role,
             judgment: Judgment {
-                finding,
+                ends,
                 method: fields.method,
                 confidence,
                 note: fields.note,
@@ -196,7 +192,7 @@ impl Serialize for Annotation {
 }
 
 impl<'de> Deserialize<'de> for Annotation {
-    /// Of this version alone; [`Annotation::from_json`] tells newer ones from malformed ones.
+    /// Reads this version alone; [`Annotation::from_json`] distinguishes newer files from malformed ones.
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let fields = Fields::deserialize(deserializer)?;
         if fields.schema != format!("{FORMAT}{VERSION}") {

@@ -1,93 +1,94 @@
-//! What a store of annotations asks of a disk, and what it has to say of it.
+//! The file operations that a store of annotations needs, its errors and its notices.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What a store asks of a disk.
+/// The file operations of a store. Tests replace the disk by one in memory that fails or dies at any operation.
 pub trait Files: Send {
-    /// The whole file; `None` where there is none.
+    /// Reads a whole file; `None` if it does not exist.
     ///
     /// # Errors
-    /// The system's, and where the file is longer than `longest` bytes or no regular file.
+    /// Returns an error if the file cannot be read, is longer than `longest` bytes, or is not a regular file.
     fn read(&mut self, path: &Path, longest: u64) -> io::Result<Option<Vec<u8>>>;
-    /// Keeps an existing journal for this program alone, as long as `self` lives.
+    /// Locks an existing journal for this program, as long as `self` lives.
     ///
     /// # Errors
-    /// The system's; [`io::ErrorKind::ResourceBusy`] where another program has it.
+    /// Returns [`io::ErrorKind::ResourceBusy`] if another program holds the lock, and any error of opening the file.
     fn claim(&mut self, path: &Path) -> io::Result<()>;
-    /// Writes at byte `at` of a journal, dropping what stands behind it, and returns once it is on the
-    /// disk. At 0 a journal that was not claimed is made.
+    /// Writes `bytes` at byte `at` of a journal, truncates the file there first, and returns once the bytes are on the
+    /// disk. With `at` 0, a journal that is not locked yet is created and locked.
     ///
     /// # Errors
-    /// The system's; [`io::ErrorKind::AlreadyExists`] where another program made it meanwhile.
+    /// Returns [`io::ErrorKind::AlreadyExists`] if another program has created the journal meanwhile, and any error of
+    /// writing.
     fn append(&mut self, path: &Path, at: u64, bytes: &[u8]) -> io::Result<()>;
-    /// Puts a whole file in place at once, and returns once it is on the disk: at any moment there is
-    /// either the old one or the new one.
+    /// Replaces a file atomically, and returns once the new content is on the disk: at any moment the path holds
+    /// either the old content or the new.
     ///
     /// # Errors
-    /// The system's.
+    /// Returns any error of writing or renaming; the old content is then still in place.
     fn replace(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
-    /// Removes a file that may be missing.
+    /// Removes a file, which need not exist.
     ///
     /// # Errors
-    /// The system's.
+    /// Returns an error if the file exists and cannot be removed.
     fn remove(&mut self, path: &Path) -> io::Result<()>;
-    /// Nothing, where a file could be put there.
+    /// Checks that a file can be created beside `path`.
     ///
     /// # Errors
-    /// The system's, where it could not.
+    /// Returns an error if it cannot.
     fn probe(&mut self, path: &Path) -> io::Result<()>;
 }
 
-/// Why an edit is not saved, or a store cannot be opened. One sentence that names the file.
+/// The reason why an edit is not saved or a store cannot be opened: one sentence that names the file.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
-    /// The system failed.
+    /// A file operation failed.
     #[error("{}: {error}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         error: io::Error,
     },
-    /// Another program is annotating.
+    /// Another program holds the journal.
     #[error("{}: another program is annotating this cloud under this name", path.display())]
     InUse {
         /// The journal.
         path: PathBuf,
     },
-    /// Every name is taken by files that must not be touched.
+    /// Every name is taken by a foreign file.
     #[error("{}: this and all further copies are taken by other files", path.display())]
     NoName {
-        /// The first.
+        /// The first of the names.
         path: PathBuf,
     },
 }
 
-/// What an annotator ought to know about the files, in one sentence each.
+/// A notice about a store's files that the annotator should see: one sentence.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Notice {
-    /// A file was left alone, and another is written instead.
-    KeptBeside {
-        /// The file that is not touched.
+    /// A foreign file was left as it is, and another file is written instead.
+    NotOverwritten {
+        /// The foreign file.
         kept: PathBuf,
-        /// Why.
+        /// The reason why it is foreign, as the end of a sentence.
         reason: String,
-        /// What is written instead.
+        /// The file that is written instead.
         instead: PathBuf,
     },
-    /// The axis file was older than the journal, or gone, and was written again.
+    /// The axis file was missing or older than the journal, and was written again.
     Restored(PathBuf),
-    /// The axis file had been changed by another program; that is now the newest edit.
-    TakenIn(PathBuf),
-    /// The journal ends in a line that was cut short: an edit that was never said to be saved.
-    CutShort(PathBuf),
+    /// Another program had changed the axis file; its content is now the newest edit.
+    EditedElsewhere(PathBuf),
+    /// The journal ended in a truncated line, which was never reported as saved.
+    TruncatedJournal(PathBuf),
 }
 
 impl std::fmt::Display for Notice {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::KeptBeside {
+            Self::NotOverwritten {
                 kept,
                 reason,
                 instead,
@@ -98,12 +99,12 @@ impl std::fmt::Display for Notice {
                 instead.file_name().unwrap_or_default().display()
             ),
             Self::Restored(path) => write!(f, "{} was written again from its journal.", path.display()),
-            Self::TakenIn(path) => write!(
+            Self::EditedElsewhere(path) => write!(
                 f,
                 "{} was changed by another program: that is now the newest edit.",
                 path.display()
             ),
-            Self::CutShort(path) => write!(
+            Self::TruncatedJournal(path) => write!(
                 f,
                 "{} ends in a line that was cut short, an edit that had not been saved.",
                 path.display()
@@ -112,7 +113,7 @@ impl std::fmt::Display for Notice {
     }
 }
 
-/// The system's error, told.
+/// Converts the system's error into one that names the file.
 pub(super) fn failed(path: &Path, error: io::Error) -> StoreError {
     let path = path.to_owned();
     match error.kind() {

@@ -11,20 +11,18 @@ pub mod exchange;
 mod file;
 mod files;
 mod journal;
-mod listing;
-mod slots;
+mod own_files;
 mod store;
 
 pub use agreement::{
     AnnotatorSummary, CloudAgreement, FAR_OFF_DEG, MeanAxis, Pair, PairSummary, SetAgreement, estimates,
     mean_axis,
 };
-pub use annotation::{Annotation, CloudId, Confidence, Finding, Judgment, Method};
-pub use author::{Author, NameError, Role, axis_file_of};
-pub use disk::DiskFiles;
+pub use annotation::{Annotation, CloudId, Confidence, Judgment, Method};
+pub use author::{AXIS_ENDING, Author, NameError, Role, axis_file_of};
+pub use disk::{DiskFiles, read_annotation};
 pub use ends::{Ends, EndsError, NUDGES_DEG, Pivot};
 pub use file::{FileError, LONGEST_FILE, now};
 pub use files::{Files, Notice, StoreError};
-pub use journal::{Deed, Journal, JournalError, deed_line, head_line, read_journal};
-pub use listing::{annotation_paths, read_annotations};
+pub use journal::{Journal, JournalError, Operation, head_line, operation_line, read_journal};
 pub use store::Store;

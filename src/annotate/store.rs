@@ -1,14 +1,14 @@
-//! One annotator's axis of one cloud, kept so that nothing is lost that was said to be saved.
+//! The store of one annotator's axis of one cloud: no edit that was reported as saved is ever lost.
 //!
-//! An edit goes to the end of the journal first, then into the axis file, which is written aside and
-//! renamed. Only then is it saved. What cannot be written stays here and is tried again with the next
-//! edit. Everything that touches a disk is behind [`Files`].
+//! An edit is appended to the journal first. Then the axis file is replaced: written under another name and renamed.
+//! Only after that is the edit saved. Edits that cannot be written stay in memory and are tried again with the next
+//! edit. All access to the disk goes through [`Files`].
 
 use std::path::{Path, PathBuf};
 
 use super::files::failed;
-use super::journal::{Deed, deed_line, head_line};
-use super::slots::{COPIES, axis_of, choose, find_journal, slot};
+use super::journal::{Operation, head_line, operation_line};
+use super::own_files::{COPIES, axis_of, candidate, choose_file, find_journal};
 use super::{Annotation, Author, CloudId, Files, Judgment, LONGEST_FILE, Method, Notice, StoreError};
 use crate::geometry::Unit;
 use crate::undo::History;
@@ -21,29 +21,29 @@ pub struct Store {
     unit: Unit,
     author: Author,
     history: History<Annotation>,
-    /// Every annotation that there ever was, the oldest first.
+    /// All annotations ever made, those out of reach of redo included, oldest first.
     ever: Vec<Annotation>,
-    deeds: u64,
+    operations: u64,
     journal: PathBuf,
-    /// Bytes of the journal that are on the disk.
+    /// The number of bytes of the journal that are on the disk.
     journal_length: u64,
-    /// Lines that are not.
+    /// The lines of the journal that are not on the disk yet.
     pending: Vec<u8>,
     axis: PathBuf,
-    /// What the axis file held when it was last looked at.
+    /// The content of the axis file when it was last read or written.
     axis_bytes: Option<Vec<u8>>,
     notices: Vec<Notice>,
 }
 
 impl Store {
-    /// Opens the annotator's files beside a cloud. Nothing is written for an annotator who has said
-    /// nothing. `unit` is what the cloud's coordinates are taken for.
+    /// Opens the annotator's files beside a cloud. No file is created before the first edit. `unit` is the unit of
+    /// the cloud's coordinates.
     ///
-    /// Where the files cannot be written, the store opens all the same, and `Err` is the second value:
-    /// to be told at once. Its edits then wait for [`Store::save`].
+    /// If the files cannot be written, the store opens all the same and the second value is the error, so that the
+    /// annotator can be warned before the first edit. Edits are then kept until [`Store::save`] succeeds.
     ///
     /// # Errors
-    /// Where another program has the journal, or no name is free.
+    /// Returns an error if another program holds the journal, or if no file name is free.
     pub fn open(
         mut files: Box<dyn Files>,
         cloud_path: &Path,
@@ -53,14 +53,14 @@ impl Store {
     ) -> Result<(Self, Result<(), StoreError>), StoreError> {
         let (journal, read, mut kept) = find_journal(&mut *files, cloud_path, &cloud, &author)?;
         let is_axis = |bytes: Vec<u8>| axis_of(&bytes, &cloud, &author).map(|axis| (axis, bytes));
-        let (axis, found) = choose(
+        let (axis, found) = choose_file(
             |copy| author.axis_path(cloud_path, copy),
-            |path| slot(files.read(path, LONGEST_FILE), is_axis),
+            |path| candidate(files.read(path, LONGEST_FILE), is_axis),
             &mut kept,
         )?;
         let mut notices = kept;
-        if read.is_cut_short {
-            notices.push(Notice::CutShort(journal.clone()));
+        if read.is_truncated {
+            notices.push(Notice::TruncatedJournal(journal.clone()));
         }
         let mut store = Self {
             files,
@@ -70,7 +70,7 @@ impl Store {
             author,
             history: read.history,
             ever: read.ever,
-            deeds: read.deeds,
+            operations: read.operations,
             journal,
             journal_length: read.length,
             pending: Vec::new(),
@@ -80,9 +80,9 @@ impl Store {
         };
         if let Some((found, bytes)) = found {
             store.axis_bytes = Some(bytes);
-            store.take_in(found);
+            store.adopt(found);
         }
-        let writable = store.make_good();
+        let writable = store.reconcile();
         Ok((store, writable))
     }
 
@@ -91,55 +91,55 @@ impl Store {
         &self.cloud
     }
 
-    /// Whose axis it is.
+    /// The author of the axis.
     pub fn author(&self) -> &Author {
         &self.author
     }
 
-    /// What holds now, saved or not; `None` where nothing has been said, or all was undone.
+    /// The current annotation, saved or not; `None` before the first edit, or if all edits were undone.
     pub fn current(&self) -> Option<&Annotation> {
         self.history.current()
     }
 
-    /// What can be undone and done again.
+    /// The history of undo and redo.
     pub fn history(&self) -> &History<Annotation> {
         &self.history
     }
 
-    /// The number of edits, undos and redos so far, from the first one on: each that is saved has its
-    /// own, for good.
-    pub fn deeds(&self) -> u64 {
-        self.deeds
+    /// The number of operations so far: edits, undos and redos. It is the permanent number of the newest one in the
+    /// journal.
+    pub fn operations(&self) -> u64 {
+        self.operations
     }
 
-    /// Whether all of it is on the disk.
+    /// Returns whether every operation is on the disk.
     pub fn is_saved(&self) -> bool {
-        self.pending.is_empty() && self.axis_bytes == self.wanted()
+        self.pending.is_empty() && self.axis_bytes == self.expected_bytes()
     }
 
-    /// The axis file.
+    /// The path of the axis file.
     pub fn axis_path(&self) -> &Path {
         &self.axis
     }
 
-    /// The journal.
+    /// The path of the journal.
     pub fn journal_path(&self) -> &Path {
         &self.journal
     }
 
-    /// What the annotator ought to know about the files.
+    /// Notices about the files that the annotator should see.
     pub fn notices(&self) -> &[Notice] {
         &self.notices
     }
 
-    /// A new state. `now` is the time (RFC 3339, as [`super::now`] gives it). `Ok` says that it is on
-    /// the disk.
+    /// Makes a new annotation the current one and saves it. `now` is the time in RFC 3339, see [`super::now`].
     ///
     /// # Errors
-    /// Where it is not: the edit holds all the same, and is saved with the next one or by [`Store::save`].
+    /// Returns an error if the edit is not on the disk. It is kept all the same, and saved with the next one or by
+    /// [`Store::save`].
     pub fn edit(&mut self, mut judgment: Judgment, now: &str) -> Result<(), StoreError> {
-        self.look_again();
-        // What was seen once cannot be unseen: undone edits count.
+        self.notice_foreign_edit();
+        // A computed axis that was seen once cannot be unseen, so undone edits count too.
         let mut before = self.ever.iter();
         judgment.blind &= judgment.method == Method::ByHand && before.all(|state| state.judgment.blind);
         let created = self.ever.first().map(|first| first.created.clone());
@@ -157,36 +157,36 @@ impl Store {
         self.save()
     }
 
-    /// Back by one edit. Whether there was one.
+    /// Undoes the last edit. Returns whether there was one.
     ///
     /// # Errors
-    /// Where that is not on the disk, as for [`Store::edit`].
+    /// Returns an error if the operation is not on the disk, as [`Store::edit`] does.
     pub fn undo(&mut self, now: &str) -> Result<bool, StoreError> {
-        self.look_again();
+        self.notice_foreign_edit();
         let could = self.history.undo().is_some();
         if could {
-            self.journal_deed(Deed::Undo, now);
+            self.journal_operation(Operation::Undo, now);
         }
         self.save().map(|()| could)
     }
 
-    /// Forward by one edit. Whether there was one.
+    /// Redoes the next edit. Returns whether there was one.
     ///
     /// # Errors
-    /// Where that is not on the disk, as for [`Store::edit`].
+    /// Returns an error if the operation is not on the disk, as [`Store::edit`] does.
     pub fn redo(&mut self, now: &str) -> Result<bool, StoreError> {
-        self.look_again();
+        self.notice_foreign_edit();
         let could = self.history.redo().is_some();
         if could {
-            self.journal_deed(Deed::Redo, now);
+            self.journal_operation(Operation::Redo, now);
         }
         self.save().map(|()| could)
     }
 
-    /// Writes what is not yet on the disk, if anything.
+    /// Writes all operations that are not on the disk yet.
     ///
     /// # Errors
-    /// Where it cannot be written; nothing is lost as long as the store lives.
+    /// Returns an error if they cannot be written. They are kept as long as the store lives.
     pub fn save(&mut self) -> Result<(), StoreError> {
         if !self.pending.is_empty() {
             let mut bytes = if self.journal_length == 0 {
@@ -200,7 +200,7 @@ impl Store {
             self.journal_length += bytes.len() as u64;
             self.pending.clear();
         }
-        let wanted = self.wanted();
+        let wanted = self.expected_bytes();
         if self.axis_bytes != wanted {
             let written = match &wanted {
                 Some(bytes) => self.files.replace(&self.axis, bytes),
@@ -212,35 +212,36 @@ impl Store {
         Ok(())
     }
 
-    /// What the axis file ought to hold.
-    fn wanted(&self) -> Option<Vec<u8>> {
+    /// The content that the axis file should have; `None` if there should be no file.
+    fn expected_bytes(&self) -> Option<Vec<u8>> {
         self.history.current().map(|state| state.to_json().into_bytes())
     }
 
     fn push(&mut self, state: Annotation, now: &str) {
         self.ever.push(state.clone());
         self.history.push(state.clone());
-        self.journal_deed(Deed::Edit(Box::new(state)), now);
+        self.journal_operation(Operation::Edit(Box::new(state)), now);
     }
 
-    fn journal_deed(&mut self, deed: Deed, now: &str) {
-        self.deeds += 1;
-        self.pending.extend(deed_line(self.deeds, now, deed));
+    fn journal_operation(&mut self, operation: Operation, now: &str) {
+        self.operations += 1;
+        self.pending
+            .extend(operation_line(self.operations, now, operation));
     }
 
-    /// Another program's state of the axis file becomes the newest edit, unless it was ours once: then
-    /// the program died before it had replaced the file.
-    fn take_in(&mut self, found: Annotation) {
+    /// Makes an annotation found in the axis file the newest edit, since another program wrote it. An annotation that
+    /// this store wrote once is ignored: the program died after journaling a later operation, before it replaced the file.
+    fn adopt(&mut self, found: Annotation) {
         if !self.ever.contains(&found) {
             let when = found.modified.clone();
             self.push(found, &when);
-            self.notices.push(Notice::TakenIn(self.axis.clone()));
+            self.notices.push(Notice::EditedElsewhere(self.axis.clone()));
         }
     }
 
-    /// After opening: the axis file as the journal has it.
-    fn make_good(&mut self) -> Result<(), StoreError> {
-        let is_behind = self.pending.is_empty() && self.axis_bytes != self.wanted();
+    /// Brings the axis file up to the journal, after opening.
+    fn reconcile(&mut self) -> Result<(), StoreError> {
+        let is_behind = self.pending.is_empty() && self.axis_bytes != self.expected_bytes();
         self.files
             .probe(&self.axis)
             .map_err(|error| failed(&self.axis, error))?;
@@ -251,9 +252,9 @@ impl Store {
         Ok(())
     }
 
-    /// Before the axis file is written: somebody else may have. What cannot be told now shows when the
-    /// file is written.
-    fn look_again(&mut self) {
+    /// Reads the axis file before it is replaced, in case another program has written it. A failure to read is ignored
+    /// here: writing fails then too.
+    fn notice_foreign_edit(&mut self) {
         let Ok(bytes) = self.files.read(&self.axis, LONGEST_FILE) else {
             return;
         };
@@ -267,18 +268,18 @@ impl Store {
         match axis_of(&bytes, &self.cloud, &self.author) {
             Ok(found) => {
                 self.axis_bytes = Some(bytes);
-                self.take_in(found);
+                self.adopt(found);
             }
             Err(reason) => {
                 let kept = self.axis.clone();
                 let free = (2..=COPIES)
                     .map(|copy| self.author.axis_path(&self.cloud_path, copy))
                     .find(|path| matches!(self.files.read(path, LONGEST_FILE), Ok(None)));
-                // With no name free the file must still not be touched: an empty name is refused.
+                // If no name is free, the file must still not be touched: writing to an empty path fails.
                 self.axis = free.unwrap_or_default();
                 self.axis_bytes = None;
                 let instead = self.axis.clone();
-                self.notices.push(Notice::KeptBeside {
+                self.notices.push(Notice::NotOverwritten {
                     kept,
                     reason,
                     instead,

@@ -1,4 +1,4 @@
-//! `axiscope annotations`: a folder's axes set by hand, and how far the annotators agree.
+//! `axiscope annotations`: a folder's axes set by hand, and the agreement between the annotators.
 
 use std::fmt::Write as _;
 use std::io::Write;
@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use axiscope::annotate::exchange::{ImportedRow, read_table, write_table};
-use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement};
-use axiscope::annotate::{annotation_paths, now, read_annotations};
+use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement, now};
 use axiscope::evaluate::Row;
-use axiscope::fruit::{Fruit, PeduncleChoice, Request, read_cloud};
+use axiscope::fruit::{AxisFiles, Fruit, PeduncleChoice, Request, read_annotations, read_cloud};
 use axiscope::geometry::Unit;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -61,17 +60,18 @@ pub(super) fn run(args: &Annotations) -> anyhow::Result<()> {
     if let Some(table) = &args.import {
         import(args, table, &clouds)?;
     }
-    let (mut annotated, mut warnings) = (Vec::new(), Vec::new());
+    let (mut files, mut annotated, mut warnings) = (AxisFiles::default(), Vec::new(), Vec::new());
     for path in &clouds {
         let name = Row::name_in(&args.folder, path);
-        // Reading a cloud takes longer than knowing that nobody has said anything of it.
-        if annotation_paths(path).is_empty() {
+        // A cloud without axis files need not be read.
+        let files = files.of(path);
+        if files.is_empty() {
             annotated.push((name, Vec::new()));
             continue;
         }
         match read_cloud(path) {
             Ok(file) => {
-                let (annotations, unusable) = read_annotations(path, &file.sha256);
+                let (annotations, unusable) = read_annotations(&files, &file.sha256);
                 warnings.extend(unusable);
                 annotated.push((name, annotations));
             }
@@ -105,7 +105,7 @@ pub(super) fn run(args: &Annotations) -> anyhow::Result<()> {
     }
 }
 
-/// Every row is looked at before the first is written.
+/// Imports the axes of a table. Every row is checked before the first is written.
 fn import(args: &Annotations, table: &Path, clouds: &[PathBuf]) -> anyhow::Result<()> {
     let named = || table.display().to_string();
     let bytes = std::fs::read(table).with_context(named)?;
@@ -143,7 +143,7 @@ fn prepare<'a>(
         Role::Annotator => Author::annotator(&row.annotator),
         Role::Adjudicator => Author::adjudicator(&row.annotator),
     }?;
-    // Only what lies in the folder: a table names files, and tables come from outside.
+    // Only clouds in the folder: a table comes from outside, and could name any file.
     let path = clouds
         .iter()
         .find(|path| Row::name_in(&args.folder, path) == row.file)
@@ -172,7 +172,7 @@ fn write_text(out: &mut impl Write, set: &SetAgreement) -> std::io::Result<()> {
         set.far_off_deg
     )?;
     let mut worst: Vec<&CloudAgreement> = set.clouds.iter().filter(|c| !is_silent(c)).collect();
-    // Where they disagree most comes first.
+    // The largest disagreement comes first.
     worst.sort_by(|a, b| {
         let of = |c: &CloudAgreement| c.largest_deg.unwrap_or(-1.0);
         of(b).total_cmp(&of(a)).then_with(|| a.file.cmp(&b.file))
@@ -249,7 +249,7 @@ fn list(names: &[String]) -> String {
     }
 }
 
-/// Columns under their heads; a table of its head alone is left out.
+/// Writes columns under their heads; a table without rows is left out.
 fn write_table_text<const N: usize>(out: &mut impl Write, rows: &[[String; N]]) -> std::io::Result<()> {
     if rows.len() < 2 {
         return Ok(());

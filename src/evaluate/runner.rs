@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::row_store::{params_key, stable_hash};
 use super::{KnownHash, Outcome, RowStore, StoredRow, SweepError, SweepSettings, TruthChoice, sweep_cloud};
-use crate::fruit::{Request, annotations_in, files_behind};
+use crate::fruit::{AxisFiles, Request, files_behind};
 use crate::method::Observe;
 use crate::parallel::Cancelled;
 use crate::text::sentence;
@@ -175,12 +175,10 @@ pub fn evaluate_file(
 
 /// Lists the annotators' files of each cloud; each folder is read once.
 pub fn annotation_files(clouds: &[PathBuf]) -> HashMap<PathBuf, Vec<PathBuf>> {
-    let mut by_folder: HashMap<&Path, Vec<PathBuf>> = HashMap::new();
-    for cloud in clouds {
-        let folder = cloud.parent().unwrap_or(Path::new(""));
-        by_folder.entry(folder).or_default().push(cloud.clone());
-    }
-    let each = by_folder.into_iter();
-    each.flat_map(|(folder, clouds)| annotations_in(folder, &clouds))
-        .collect()
+    let mut files = AxisFiles::default();
+    let mut of = |cloud: &PathBuf| {
+        let paths: Vec<PathBuf> = files.of(cloud).into_iter().map(|file| file.path).collect();
+        (!paths.is_empty()).then(|| (cloud.clone(), paths))
+    };
+    clouds.iter().filter_map(&mut of).collect()
 }

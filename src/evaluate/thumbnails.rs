@@ -5,8 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::row_store::{THUMBNAILS, params_key, stable_hash};
 use super::{Examination, Outcome, RowStore, TruthChoice};
-use crate::annotate::annotation_paths;
-use crate::fruit::{Request, files_behind};
+use crate::fruit::{Request, annotation_paths, files_behind};
 use crate::method::Observe;
 use crate::render::Image;
 use crate::text::sentence;

@@ -1,13 +1,11 @@
-//! The clouds of a folder and the files beside them.
+//! The clouds of a folder, and the files that the results for a cloud depend on.
 
-use std::collections::HashMap;
-use std::ffi::OsString;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::{PeduncleChoice, Request, companion_path, removed_path, truth_path};
-use crate::annotate::axis_file_of;
 
-/// Every cloud in the folder, by name. A companion that holds a peduncle alone is no cloud of its own.
+/// Returns every cloud in a folder, by name. A companion file that holds a peduncle alone is not a cloud of its own.
 ///
 /// # Errors
 /// Returns an error if the folder cannot be read.
@@ -23,56 +21,13 @@ pub fn clouds_in(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
         }
     }
     clouds.sort();
-    let companions: std::collections::HashSet<PathBuf> =
-        clouds.iter().map(|path| companion_path(path)).collect();
+    let companions: HashSet<PathBuf> = clouds.iter().map(|path| companion_path(path)).collect();
     clouds.retain(|path| !companions.contains(path));
     Ok(clouds)
 }
 
-/// The annotators' files of each of the clouds of one folder, which is read once for all of them.
-pub fn annotations_in(folder: &Path, clouds: &[PathBuf]) -> HashMap<PathBuf, Vec<PathBuf>> {
-    let folder = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return HashMap::new();
-    };
-    let is_axis = |name: &OsString| name.to_string_lossy().ends_with(".axis.json");
-    let names: Vec<OsString> = entries
-        .filter_map(|entry| Some(entry.ok()?.file_name()))
-        .filter(is_axis)
-        .collect();
-    if names.is_empty() {
-        return HashMap::new();
-    }
-    // A cloud's axis files begin with its stem and a dot.
-    let mut by_stem: HashMap<String, Vec<&PathBuf>> = HashMap::new();
-    for cloud in clouds {
-        let stem = cloud.file_stem().unwrap_or_default().to_string_lossy();
-        by_stem.entry(stem.into_owned()).or_default().push(cloud);
-    }
-    let mut found: HashMap<PathBuf, Vec<PathBuf>> = HashMap::new();
-    for name in names {
-        let text = name.to_string_lossy();
-        for (dot, _) in text.match_indices('.') {
-            for cloud in by_stem.get(&text[..dot]).into_iter().flatten() {
-                if axis_file_of(cloud, &name).is_some() {
-                    let paths = found.entry((*cloud).clone()).or_default();
-                    paths.push(cloud.with_file_name(&name));
-                }
-            }
-        }
-    }
-    for paths in found.values_mut() {
-        paths.sort();
-    }
-    found
-}
-
-/// The files whose bytes a cloud's row follows from, the cloud's own first; some may not exist.
-/// `annotations` are those of its annotators.
+/// Returns the files that the results for a cloud depend on, the cloud's own first; some may not exist. `annotations` are
+/// its axis files.
 pub fn files_behind(path: &Path, request: &Request, annotations: &[PathBuf]) -> Vec<PathBuf> {
     let mut files = vec![path.to_path_buf(), companion_path(path), truth_path(path)];
     match &request.peduncle {

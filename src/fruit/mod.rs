@@ -1,6 +1,7 @@
 //! A fruit from its files: a cloud with its unit, its peduncle, its simulated truth and its annotations; the settings of
 //! its analysis; and the listing of the files in a folder.
 
+mod axis_files;
 mod cloud_file;
 mod listing;
 mod picked;
@@ -13,7 +14,8 @@ pub use cloud_file::{
     CloudFile, ReadError, ReadErrorKind, parse_cloud, parse_cloud_watched, read_cloud, read_cloud_watched,
     sha256_hex,
 };
-pub use listing::{annotations_in, clouds_in, files_behind};
+pub use axis_files::{AxisFile, AxisFiles, annotation_paths, read_annotations};
+pub use listing::{clouds_in, files_behind};
 pub use picked::PickedPoints;
 pub use read::{Fruit, FruitError, PeduncleChoice, companion_path, removed_path, truth_path};
 pub use request::Request;

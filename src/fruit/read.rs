@@ -4,9 +4,11 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{CloudFile, PickedPoints, ReadError, Request, read_cloud, read_cloud_watched, unit_guess};
+use super::{
+    AxisFiles, CloudFile, PickedPoints, ReadError, Request, read_annotations, read_cloud, read_cloud_watched,
+    unit_guess,
+};
 use crate::annotate::Annotation;
-use crate::annotate::read_annotations;
 use crate::geometry::{Cloud, Unit};
 use crate::parallel::Watch;
 use crate::peduncle::{HueRange, Peduncle, PeduncleError, PeduncleSource};
@@ -124,7 +126,7 @@ impl Fruit {
                 None
             }
         };
-        let (annotations, unusable) = read_annotations(path, &file.sha256);
+        let (annotations, unusable) = read_annotations(&AxisFiles::default().of(path), &file.sha256);
         warnings.extend(unusable);
         Self {
             file,

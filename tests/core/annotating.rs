@@ -4,10 +4,11 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::helpers::disk::Disk;
+use axiscope::annotate::DiskFiles;
 use axiscope::annotate::{
     Annotation, Author, CloudId, Confidence, Ends, Judgment, Method, Notice, Store, StoreError,
 };
-use axiscope::annotate::{DiskFiles, read_annotations};
+use axiscope::fruit::{AxisFiles, read_annotations};
 use axiscope::geometry::Unit;
 use glam::DVec3;
 
@@ -282,7 +283,7 @@ fn a_file_that_another_program_puts_there_meanwhile_is_not_touched_either() {
         disk.write_file(&axis_path(1), &content);
         store.edit(judgment(2.0), NOW).unwrap();
         assert_eq!(disk.read_file(&axis_path(1)), Some(content));
-        assert!(matches!(store.notices(), [Notice::KeptBeside { .. }]));
+        assert!(matches!(store.notices(), [Notice::NotOverwritten { .. }]));
         assert_eq!(
             length(&Annotation::from_json(&disk.read_file(&axis_path(2)).unwrap()).unwrap()),
             2.0
@@ -359,7 +360,8 @@ fn two_programs_do_not_annotate_at_once_under_one_name() {
     drop((one, other));
     assert_eq!(length(open(ada()).unwrap().current().unwrap()), 1.0);
 
-    let (annotations, warnings) = read_annotations(&cloud, &id().sha256);
+    let files = AxisFiles::default().of(&cloud);
+    let (annotations, warnings) = read_annotations(&files, &id().sha256);
     assert_eq!(
         annotations
             .iter()
@@ -368,7 +370,7 @@ fn two_programs_do_not_annotate_at_once_under_one_name() {
         ["Ada", "Bob"]
     );
     assert!(warnings.is_empty());
-    let (none, warnings) = read_annotations(&cloud, "another");
+    let (none, warnings) = read_annotations(&files, "another");
     assert!(none.is_empty() && warnings.len() == 2, "{warnings:?}");
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::helpers::disk::Disk;
 use axiscope::annotate::{
-    Annotation, Author, CloudId, Confidence, Ends, EndsError, Finding, Judgment, Pivot, Store, read_journal,
+    Annotation, Author, CloudId, Confidence, Ends, EndsError, Judgment, Pivot, Store, read_journal,
 };
 use axiscope::geometry::Unit;
 use glam::DVec3;
@@ -58,8 +58,8 @@ fn what_is_written_is_what_the_schema_says() {
         let bytes = disk.read_file(&axis_path(1)).unwrap();
         let read = Annotation::from_json(&bytes).unwrap();
         assert_eq!(
-            (&read.judgment.finding, read.unit),
-            (&judgment.finding, Unit::Meter)
+            (&read.judgment.ends, read.unit),
+            (&judgment.ends, Unit::Meter)
         );
         let written: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
         let fields = written.as_object().unwrap();
@@ -119,7 +119,7 @@ proptest! {
             bytes.retain(|&b| b != b'\n');
             journal.extend(bytes);
             let read = read_journal(&journal, &id().sha256, &ada()).unwrap();
-            prop_assert_eq!(read.deeds, whole as u64 - 1);
+            prop_assert_eq!(read.operations, whole as u64 - 1);
             prop_assert_eq!(read.history.undo_steps(), whole - 1);
         }
     }
@@ -178,5 +178,5 @@ fn what_is_no_axis_is_refused() {
         (spanning.peduncle_base(), spanning.blossom_end()),
         (p, p + 2.0 * DVec3::Y)
     );
-    assert!(matches!(Judgment::cannot_tell().finding, Finding::CannotTell));
+    assert!(Judgment::cannot_tell().ends.is_none());
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::helpers::command_line::{json, run, simulate};
 use axiscope::annotate::{
-    Annotation, CloudAgreement, CloudId, Ends, Finding, Judgment, Role, SetAgreement, mean_axis,
+    Annotation, CloudAgreement, CloudId, Ends, Judgment, Role, SetAgreement, mean_axis,
 };
 use axiscope::geometry::{Cloud, Unit};
 use axiscope::peduncle::{Peduncle, PeduncleError};
@@ -19,7 +19,7 @@ fn leaning(degrees: f64) -> Ends {
     Ends::new(middle + half, middle - half).unwrap()
 }
 
-fn annotation(annotator: &str, role: Role, finding: Finding) -> Annotation {
+fn annotation(annotator: &str, role: Role, ends: Option<Ends>) -> Annotation {
     Annotation {
         cloud: CloudId {
             file: String::new(),
@@ -29,7 +29,7 @@ fn annotation(annotator: &str, role: Role, finding: Finding) -> Annotation {
         annotator: annotator.into(),
         role,
         judgment: Judgment {
-            finding,
+            ends,
             ..Judgment::cannot_tell()
         },
         created: String::new(),
@@ -39,7 +39,7 @@ fn annotation(annotator: &str, role: Role, finding: Finding) -> Annotation {
 }
 
 fn by(name: &str, degrees: f64) -> Annotation {
-    annotation(name, Role::Annotator, Finding::Axis(leaning(degrees)))
+    annotation(name, Role::Annotator, Some(leaning(degrees)))
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn whoever_is_far_from_most_is_far_off() {
     assert_eq!(flat(&of(&[by("Ada", 0.0), by("Bob", 9.0)]).far_off), "");
     assert_eq!(flat(&of(&[by("Ada", 0.0)]).far_off), "");
     // Angles are those of lines, but ends that were exchanged are told.
-    let flipped = annotation("Bob", Role::Annotator, Finding::Axis(leaning(2.0).flipped()));
+    let flipped = annotation("Bob", Role::Annotator, Some(leaning(2.0).flipped()));
     let exchanged = of(&[by("Ada", 0.0), flipped]);
     assert_eq!(exchanged.pairs[0].angle_deg.round(), 2.0);
     assert!(exchanged.pairs[0].is_opposite && !three.pairs[0].is_opposite);
@@ -91,8 +91,8 @@ fn whoever_is_far_from_most_is_far_off() {
 
 #[test]
 fn a_set_s_sums_are_over_its_clouds() {
-    let silent = annotation("Ada", Role::Annotator, Finding::CannotTell);
-    let decided = annotation("Eve", Role::Adjudicator, Finding::Axis(leaning(1.0)));
+    let silent = annotation("Ada", Role::Annotator, None);
+    let decided = annotation("Eve", Role::Adjudicator, Some(leaning(1.0)));
     let clouds = vec![
         CloudAgreement::of("a.ply", &[by("Ada", 0.0), by("Bob", 4.0), decided], 10.0),
         CloudAgreement::of("b.ply", &[by("Ada", 0.0), by("Bob", 16.0)], 10.0),

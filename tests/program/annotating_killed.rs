@@ -142,7 +142,7 @@ fn two_hundred_kills_lose_nothing_that_was_shown_as_saved() {
         }
         let (store, writable) = open();
         writable.unwrap();
-        let saved = usize::try_from(store.deeds()).unwrap();
+        let saved = usize::try_from(store.operations()).unwrap();
         let least = known.len() + shown.len();
         assert!(
             (least..=known.len() + LINES).contains(&saved),

@@ -6,7 +6,7 @@ use crate::helpers::command_line::{run, simulate};
 use axiscope::annotate::exchange::{
     Placement, SlicerError, SlicerFrame, place, read_lines, read_table, write_line, write_table,
 };
-use axiscope::annotate::{Annotation, Confidence, Ends, Finding, Method};
+use axiscope::annotate::{Annotation, Confidence, Ends, Method};
 use axiscope::geometry::{Extent, Unit};
 use glam::DVec3;
 use tempfile::TempDir;
@@ -334,8 +334,8 @@ fn the_command_line_does_what_the_hand_would() {
     let moved = annotated(&cloud, "Ada", "--blossom 1,3,56 --flip");
     assert_eq!(moved.ends().unwrap().peduncle_base(), DVec3::new(1.0, 3.0, 56.0));
     assert_eq!(
-        annotated(&cloud, "Ada", "--cannot-tell").judgment.finding,
-        Finding::CannotTell
+        annotated(&cloud, "Ada", "--cannot-tell").judgment.ends,
+        None
     );
     let from = annotated(&cloud, "Ada", "--start peduncle --turn lean=1 --blind");
     assert!(from.judgment.method == Method::FromPeduncle && !from.judgment.blind);

@@ -1,9 +1,9 @@
 //! Lines of 3D Slicer's Markups module (`.mrk.json`).
 //!
-//! Slicer thinks of every coordinate as a patient's, in millimeters: either towards left, posterior
-//! and superior (LPS, as its files do) or right, anterior and superior (RAS). It takes a PLY file for
-//! LPS unless told otherwise, so the frame of such a file is that of the lines drawn on it. And it takes
-//! its numbers for millimeters whatever they are, so a line drawn on a cloud in meters holds meters.
+//! Slicer takes every coordinate for a patient's, in millimeters, in one of two frames: left, posterior and superior (LPS,
+//! as in its files) or right, anterior and superior (RAS). A PLY file is loaded as LPS by default, so it has the same frame
+//! as the lines drawn on it. Its numbers are taken for millimeters whatever their unit, so a line drawn on a cloud in
+//! meters holds meters.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::annotate::{Ends, EndsError};
 use crate::geometry::{Extent, Unit};
 
-/// In which of Slicer's frames the cloud was loaded.
+/// The frame of Slicer in which the cloud was loaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum SlicerFrame {
@@ -22,13 +22,13 @@ pub enum SlicerFrame {
     Ras,
 }
 
-/// How a line of Slicer's lies in a cloud's file.
+/// The relation between the coordinates of a line in Slicer and those of the cloud's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Placement {
     /// The frame in which the cloud was loaded.
     pub frame: SlicerFrame,
-    /// Whether the cloud was loaded as it is, its numbers taken for millimeters. Otherwise it was first
-    /// converted to millimeters.
+    /// Whether the cloud was loaded as it is, its numbers taken for millimeters. If not, it was converted to millimeters
+    /// first.
     pub numbers_as_they_are: bool,
 }
 
@@ -41,19 +41,19 @@ pub struct SlicerLine {
     pub points: [DVec3; 2],
 }
 
-/// Why a markup file gives no axis.
+/// The reason why a markup file gives no axis.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SlicerError {
-    /// It is no markup file.
+    /// The file is not a markup file.
     #[error("it is no markup file: {0}")]
     Malformed(String),
-    /// There is no line in it.
+    /// The file has no line.
     #[error("it holds no line")]
     NoLine,
-    /// A frame that Slicer's files do not have.
+    /// The frame is neither LPS nor RAS.
     #[error("its coordinate system {0:?} is neither LPS nor RAS")]
     Frame(String),
-    /// A unit other than millimeters.
+    /// The unit is not millimeters.
     #[error("its coordinates are in {0:?}, not in mm")]
     Unit(String),
     /// A line has more or fewer points than two.
@@ -61,16 +61,16 @@ pub enum SlicerError {
     Points {
         /// The line's name.
         name: String,
-        /// How many of them have a place.
+        /// The number of its points that have a position.
         points: usize,
     },
-    /// Both points are one.
+    /// The two points of the line are not an axis.
     #[error(transparent)]
     Ends(#[from] EndsError),
-    /// The line is nowhere near the cloud.
+    /// The line is far from the cloud.
     #[error("the line lies away from the cloud{}", hint(.fits))]
     Away {
-        /// The placements under which it would lie on it.
+        /// The placements with which the line would lie on the cloud.
         fits: Vec<Placement>,
     },
 }
@@ -121,11 +121,11 @@ struct Point {
     position_status: Option<String>,
 }
 
-/// Every line of a markup file. Other markups in it are passed over.
+/// Reads every line of a markup file. Other markups are skipped.
 ///
 /// # Errors
-/// Where it is no markup file or has no line, and where a line has not two points, or is in another unit or
-/// frame than Slicer's.
+/// Returns an error if the file is not a markup file or has no line, and if a line does not have two points, or is in
+/// another unit or frame than Slicer's.
 pub fn read_lines(bytes: &[u8]) -> Result<Vec<SlicerLine>, SlicerError> {
     let file: File = serde_json::from_slice(bytes).map_err(|e| SlicerError::Malformed(e.to_string()))?;
     let lines = file.markups.into_iter().filter(|markup| markup.kind == "Line");
@@ -137,7 +137,7 @@ pub fn read_lines(bytes: &[u8]) -> Result<Vec<SlicerLine>, SlicerError> {
 }
 
 fn line(markup: Markup) -> Result<SlicerLine, SlicerError> {
-    // Without a word about it, files are in LPS; 0 and 1 are what the first versions wrote.
+    // LPS is the default of the format; the first versions of Slicer wrote 0 and 1 for RAS and LPS.
     let frame = match &markup.coordinate_system {
         None => SlicerFrame::Lps,
         Some(value) => match (value.as_str(), value.as_u64()) {
@@ -170,7 +170,7 @@ fn line(markup: Markup) -> Result<SlicerLine, SlicerError> {
     })
 }
 
-/// Half a turn about the vertical, which takes either frame to the other.
+/// Converts between LPS and a frame, in either direction: RAS is LPS after half a turn about the vertical.
 fn turned(point: DVec3, frame: SlicerFrame) -> DVec3 {
     match frame {
         SlicerFrame::Lps => point,
@@ -178,7 +178,7 @@ fn turned(point: DVec3, frame: SlicerFrame) -> DVec3 {
     }
 }
 
-/// How many of Slicer's millimeters one number of the cloud's file is.
+/// Returns the length in Slicer's millimeters of one unit of the cloud's file.
 fn millimeters(unit: Unit, placement: Placement) -> f64 {
     if placement.numbers_as_they_are {
         1.0
@@ -187,11 +187,12 @@ fn millimeters(unit: Unit, placement: Placement) -> f64 {
     }
 }
 
-/// The line in the cloud's file, its first point taken for the peduncle's base. `extent` is the cloud's.
+/// Converts a line to the frame and unit of the cloud's file; its first point becomes the peduncle's base. `extent` is the
+/// cloud's.
 ///
 /// # Errors
-/// Where the line lies farther from the cloud than half its size, or has quite another size: then
-/// its coordinates were read wrongly, and the error says what would fit.
+/// Returns an error if the line lies farther from the cloud than half the cloud's size, or is much shorter or longer than
+/// the cloud: then its placement is wrong, and the error names those that would fit.
 pub fn place(
     line: &SlicerLine,
     unit: Unit,
@@ -206,10 +207,10 @@ pub fn place(
     };
     let fits = |ends: &Ends| {
         let size = extent.size().length();
-        // The camera sees half of a fruit: the other half reaches about as far beyond the points.
+        // The camera sees half of a fruit, and the other half reaches about as far beyond the points.
         let reach = DVec3::splat(0.5 * size);
         let near = |p: DVec3| p.cmpge(extent.min - reach).all() && p.cmple(extent.max + reach).all();
-        // Near the origin a line in the wrong unit lies on the cloud too, but far too small.
+        // Near the origin a line in the wrong unit can lie on the cloud too, but it is far too short.
         let share = ends.length() / size;
         near(ends.peduncle_base()) && near(ends.blossom_end()) && (0.2..3.0).contains(&share)
     };

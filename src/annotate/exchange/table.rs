@@ -1,28 +1,28 @@
-//! Annotations as CSV: a row an annotator and cloud.
+//! Annotations as CSV: one row per annotator and cloud.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::annotate::{Annotation, Confidence, Ends, Finding, Judgment, Method, Role};
+use crate::annotate::{Annotation, Confidence, Ends, Judgment, Method, Role};
 use crate::geometry::Unit;
 
-/// Why a table is not understood.
+/// The reason why a table cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
-    /// It is no CSV, lacks a column, or has something else in a field.
+    /// The text is not CSV, a column is missing, or a field has another type.
     #[error("{0}")]
     Csv(#[from] csv::Error),
-    /// A row says nothing that can be used.
+    /// A row cannot be used.
     #[error("row {row}: {reason}")]
     Row {
-        /// Its number, from 1 after the head line.
+        /// The row's number, from 1 after the header.
         row: usize,
-        /// Why.
+        /// The reason, as the end of a sentence.
         reason: String,
     },
 }
 
-/// One row. Only the file, the annotator and the ends have to be there.
+/// The fields of a row. Only the columns of the file, the annotator and the ends are required.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Fields {
     file: String,
@@ -55,35 +55,35 @@ struct Fields {
     modified: Option<String>,
 }
 
-/// A row that was read, for a cloud that the caller finds.
+/// A row of a table. The caller finds its cloud.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportedRow {
     /// The cloud's file within the folder.
     pub file: String,
-    /// The hash of the cloud that it was made for, where the table says.
+    /// The hash of the cloud that the axis was set for, if the table has it.
     pub sha256: Option<String>,
-    /// Who set the axis.
+    /// The annotator's name.
     pub annotator: String,
-    /// In which role; an annotator's where the table does not say.
+    /// The annotator's role; [`Role::Annotator`] by default.
     pub role: Role,
-    /// The unit of the ends; the cloud's where the table does not say.
+    /// The unit of the ends; by default the cloud's.
     pub unit: Option<Unit>,
-    /// What was decided; [`Method::Imported`] where the table does not say how.
+    /// The judgment; its method is [`Method::Imported`] by default.
     pub judgment: Judgment,
 }
 
 impl ImportedRow {
-    /// The judgment with its ends in the cloud's unit.
+    /// Returns the judgment with its ends in the cloud's unit.
     ///
     /// # Errors
-    /// Where the conversion leaves no axis.
+    /// Returns an error if the converted ends are not an axis.
     pub fn in_unit(&self, unit: Unit) -> Result<Judgment, crate::annotate::EndsError> {
         let mut judgment = self.judgment.clone();
-        if let (Finding::Axis(ends), Some(own)) = (judgment.finding, self.unit)
+        if let (Some(ends), Some(own)) = (judgment.ends, self.unit)
             && own != unit
         {
             let scale = own.in_cm() / unit.in_cm();
-            judgment.finding = Finding::Axis(Ends::new(
+            judgment.ends = Some(Ends::new(
                 ends.peduncle_base() * scale,
                 ends.blossom_end() * scale,
             )?);
@@ -92,10 +92,10 @@ impl ImportedRow {
     }
 }
 
-/// The annotations as CSV with a head line; each with the name of its cloud's file.
+/// Formats annotations as CSV with a header; each comes with the name of its cloud's file.
 ///
 /// # Errors
-/// Where memory runs out.
+/// Returns an error if CSV cannot be written to memory.
 pub fn write_table<'a>(
     annotations: impl IntoIterator<Item = (&'a str, &'a Annotation)>,
 ) -> Result<Vec<u8>, TableError> {
@@ -135,7 +135,7 @@ pub fn write_table<'a>(
 /// the others that [`write_table`] writes as there are.
 ///
 /// # Errors
-/// Where it is no such table, or a row has neither an axis nor says that it cannot be told.
+/// Returns an error if the text is not such a table, or if a row neither has an axis nor says that it cannot be told.
 pub fn read_table(bytes: &[u8]) -> Result<Vec<ImportedRow>, TableError> {
     // Spreadsheets begin their files with a byte-order mark.
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -156,11 +156,11 @@ fn imported(fields: Fields) -> Result<ImportedRow, String> {
         fields.peduncle_base_z,
     );
     let blossom = point(fields.blossom_end_x, fields.blossom_end_y, fields.blossom_end_z);
-    let finding = match (base, blossom, fields.cannot_tell.unwrap_or(false)) {
+    let ends = match (base, blossom, fields.cannot_tell.unwrap_or(false)) {
         (Some(base), Some(blossom), false) => {
-            Finding::Axis(Ends::new(base, blossom).map_err(|error| error.to_string())?)
+            Some(Ends::new(base, blossom).map_err(|error| error.to_string())?)
         }
-        (None, None, true) => Finding::CannotTell,
+        (None, None, true) => None,
         (_, _, true) => return Err("it has an end, and says that none can be told".into()),
         (_, _, false) => return Err("an end is missing, and it does not say that none can be told".into()),
     };
@@ -175,7 +175,7 @@ fn imported(fields: Fields) -> Result<ImportedRow, String> {
         role: fields.role.unwrap_or(Role::Annotator),
         unit: fields.unit,
         judgment: Judgment {
-            finding,
+            ends,
             method: fields.method.unwrap_or(Method::Imported),
             confidence,
             note: fields.note.unwrap_or_default(),

@@ -7,7 +7,7 @@ use super::commands::{Decision, TrueAxesCommand, Turn};
 use super::handles::Handle;
 use super::state::{Draft, Grab, Saving};
 use super::stores::Change;
-use crate::annotate::{Annotation, Ends, Finding, Judgment, Method, Role, mean_axis};
+use crate::annotate::{Annotation, Ends, Judgment, Method, Role, mean_axis};
 use crate::app::command::Command;
 use crate::app::context::Context;
 use crate::app::inspector::stages::Source;
@@ -164,7 +164,7 @@ impl TrueAxes {
         self.edit(
             cx,
             Judgment {
-                finding: Finding::Axis(ends),
+                ends: Some(ends),
                 ..before
             },
         );

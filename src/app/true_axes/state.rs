@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::agreement::SetReport;
 use super::handles::{EditView, Handle};
 use crate::annotate::{
-    Annotation, Author, CloudAgreement, CloudId, Ends, Finding, Judgment, NUDGES_DEG, NameError, Pivot, Role,
+    Annotation, Author, CloudAgreement, CloudId, Ends, Judgment, NUDGES_DEG, NameError, Pivot, Role,
 };
 use crate::app::inspector::stages::Walked;
 use crate::geometry::{Extent, Unit};
@@ -264,10 +264,7 @@ impl TrueAxesState {
 
     /// The axis that counts; `None` where none is set, or it cannot be told.
     pub fn set_ends(&self) -> Option<Ends> {
-        match self.judgment()?.finding {
-            Finding::Axis(ends) => Some(ends),
-            Finding::CannotTell => None,
-        }
+        self.judgment()?.ends
     }
 
     /// The axis as it is to be drawn, while it is dragged too.

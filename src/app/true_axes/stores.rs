@@ -3,8 +3,9 @@
 
 use std::path::PathBuf;
 
+use crate::annotate::DiskFiles;
 use crate::annotate::{Annotation, Author, CloudId, Judgment, Store, StoreError, now};
-use crate::annotate::{DiskFiles, read_annotations};
+use crate::fruit::{AxisFiles, read_annotations};
 use crate::geometry::Unit;
 use crate::undo::History;
 
@@ -184,7 +185,7 @@ impl AxisStores {
         let (mut annotations, unusable) = self
             .cloud
             .as_ref()
-            .map(|cloud| read_annotations(&cloud.path, &cloud.id.sha256))
+            .map(|cloud| read_annotations(&AxisFiles::default().of(&cloud.path), &cloud.id.sha256))
             .unwrap_or_default();
         annotations.sort_by(|a, b| (a.role as u8, &a.annotator).cmp(&(b.role as u8, &b.annotator)));
         let current = self.current().map(|place| &self.stores[place]);

@@ -1,14 +1,14 @@
-//! One edit of an axis, as it stands on the command line or in a line of a script.
+//! One edit of an axis, as given on the command line or by a line of a script.
 
 use std::str::FromStr;
 
-use axiscope::annotate::{Annotation, Confidence, Ends, EndsError, Finding, Judgment, Method, Pivot};
+use axiscope::annotate::{Annotation, Confidence, Ends, EndsError, Judgment, Method, Pivot};
 use clap::{ArgGroup, Args};
 use glam::DVec3;
 
 use crate::cli::options::{number, position};
 
-/// What to change. Several changes at once are one edit; they are made in the order of this list.
+/// The changes of one edit, which are made in the order of this list; or an undo or redo.
 #[derive(Debug, Clone, Default, Args)]
 #[allow(
     clippy::struct_excessive_bools,
@@ -104,15 +104,15 @@ fn confidence(text: &str) -> Result<Confidence, String> {
 }
 
 impl Change {
-    /// Whether anything is to be edited, undone or redone.
+    /// Returns whether there is anything to edit, undo or redo.
     pub(super) fn is_any(&self) -> bool {
         let moves = self.flip || !self.turn.is_empty() || self.shift.is_some() || self.lengthen.is_some();
         let ends = self.base.is_some() || self.blossom.is_some() || self.start.is_some() || self.cannot_tell;
         self.undo || self.redo || moves || ends || self.confidence.is_some() || self.note.is_some()
     }
 
-    /// What it makes of the present state. `start` gives the axis to start from, `viewpoint` is where the
-    /// camera is.
+    /// Applies the edit to the current annotation. `start` computes the axis to start from; `viewpoint` is the position of the
+    /// camera.
     pub(super) fn judgment(
         &self,
         current: Option<&Annotation>,
@@ -123,7 +123,7 @@ impl Change {
         let known = current.and_then(Annotation::ends).copied();
         let (method, mut ends) = match (self.start, self.base, self.blossom) {
             (Some(method), ..) => (method, Some(start(method)?)),
-            // Both ends anew: this does not follow from what was there.
+            // Both ends are new, so the axis does not derive from the one before.
             (None, Some(base), Some(blossom)) => (Method::ByHand, Some(Ends::new(base, blossom)?)),
             (None, base, blossom) => {
                 let mut ends = known;
@@ -140,15 +140,14 @@ impl Change {
         if self.flip || !self.turn.is_empty() || self.shift.is_some() || self.lengthen.is_some() {
             ends = Some(self.moved(ends.ok_or_else(no_axis)?, viewpoint)?);
         }
-        let finding = match ends {
-            _ if self.cannot_tell => Finding::CannotTell,
-            Some(ends) => Finding::Axis(ends),
-            None if before.is_some() => Finding::CannotTell,
-            None => return Err(no_axis()),
-        };
+        if self.cannot_tell {
+            ends = None;
+        } else if ends.is_none() && before.is_none() {
+            return Err(no_axis());
+        }
         let (confidence, note) = before.map_or((None, String::new()), |b| (b.confidence, b.note));
         Ok(Judgment {
-            finding,
+            ends,
             method: if self.cannot_tell { Method::ByHand } else { method },
             confidence: self.confidence.or(confidence),
             note: self.note.clone().unwrap_or(note),

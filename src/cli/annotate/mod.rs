@@ -9,9 +9,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use axiscope::annotate::DiskFiles;
 use axiscope::annotate::exchange::{Placement, SlicerFrame, place, read_lines, write_line};
-use axiscope::annotate::{
-    Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError, now,
-};
+use axiscope::annotate::{Annotation, Author, CloudId, Ends, Judgment, Method, Role, Store, StoreError, now};
 use axiscope::evaluate::{Examination, examine, start_axis};
 use axiscope::fruit::Fruit;
 use axiscope::geometry::Extent;
@@ -103,7 +101,7 @@ pub(super) fn run(args: &Annotate) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Opens an annotator's files beside a cloud; what there is to know of them goes to standard error.
+/// Opens an annotator's files beside a cloud, and prints the notices about them to standard error.
 pub(super) fn open(
     cloud: &Path,
     fruit: &Fruit,
@@ -120,7 +118,7 @@ pub(super) fn open(
     Ok((store, writable))
 }
 
-/// One edit. Whether there was anything to undo or do again.
+/// Carries out one edit, undo or redo.
 fn apply(args: &Annotate, change: &Change, fruit: &Fruit, store: &mut Store) -> anyhow::Result<()> {
     let known = store.notices().len();
     let done = if change.undo {
@@ -140,7 +138,7 @@ fn apply(args: &Annotate, change: &Change, fruit: &Fruit, store: &mut Store) -> 
     Ok(())
 }
 
-/// The axis to start from, which takes an analysis.
+/// Computes the axis to start from, which takes an analysis.
 fn start(args: &Annotate, fruit: &Fruit, method: Method) -> anyhow::Result<Ends> {
     let clock = StageClock::new();
     let examined = examine(fruit.clone(), &args.analysis.request(), &clock);
@@ -154,8 +152,8 @@ fn start(args: &Annotate, fruit: &Fruit, method: Method) -> anyhow::Result<Ends>
     Ok(start_axis(&fruit, &analysis, &references, method)?)
 }
 
-/// Edits by the line, each answered at once: `saved N`, `not saved: …` for one that holds and waits, or
-/// `refused: …` for one that is none.
+/// Carries out the edits of a script, a line each, and answers each at once: `saved N`; `not saved: …` for an edit that is
+/// kept and tried again with the next; or `refused: …` for a line that is not an edit.
 fn follow(
     args: &Annotate,
     script: &Path,
@@ -185,7 +183,7 @@ fn follow(
             Err(error) => Err(anyhow::anyhow!(error)),
         };
         match done {
-            Ok(()) => writeln!(out, "saved {}", store.deeds())?,
+            Ok(()) => writeln!(out, "saved {}", store.operations())?,
             Err(error) if error.is::<StoreError>() => writeln!(out, "not saved: {error}")?,
             Err(error) => {
                 refused += 1;
@@ -240,9 +238,9 @@ fn write_text(out: &mut impl Write, store: &Store) -> std::io::Result<()> {
         return row("Axis", "none yet");
     };
     let judgment = &annotation.judgment;
-    match judgment.finding {
-        Finding::CannotTell => row("Axis", "cannot be told")?,
-        Finding::Axis(ends) => {
+    match judgment.ends {
+        None => row("Axis", "cannot be told")?,
+        Some(ends) => {
             let unit = annotation.unit;
             row("Peduncle base", &format!("{:.4} {unit}", ends.peduncle_base()))?;
             row("Blossom end", &format!("{:.4} {unit}", ends.blossom_end()))?;

@@ -1,13 +1,13 @@
-//! Edits by the line: each line holds what would stand on the command line.
+//! Scripts of edits: each line holds the options of one edit, as on the command line.
 
 use clap::{Args, Command, FromArgMatches};
 
 use super::change::Change;
 
-/// The edit in a line; `None` where the line is empty or a comment.
+/// Parses the edit in a line; `None` if the line is empty or a comment.
 ///
 /// # Errors
-/// One line that says what is wrong.
+/// Returns a message of one line if the line is not an edit.
 pub(super) fn change_of(line: &str) -> Result<Option<Change>, String> {
     let words = words(line)?;
     if words.is_empty() {
@@ -23,9 +23,9 @@ pub(super) fn change_of(line: &str) -> Result<Option<Change>, String> {
     Change::from_arg_matches(&matches).map(Some).map_err(one_line)
 }
 
-/// The words of a line, parted and quoted as in a POSIX shell. What follows a `#` that begins a word is a comment.
+/// Splits a line into words as a POSIX shell does. A `#` at the beginning of a word starts a comment.
 fn words(line: &str) -> Result<Vec<String>, &'static str> {
-    // A carriage return of a file from Windows is no part of the last word.
+    // In a file from Windows, the carriage return is not a part of the last word.
     let line = line.trim_end_matches(['\r', '\n']);
     shlex::split(line).ok_or("a quote is not closed, or a backslash ends the line")
 }

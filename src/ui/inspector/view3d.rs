@@ -11,7 +11,7 @@ use crate::app::true_axes::EditView;
 use crate::app::{Command, State, Tool, dragged, page};
 use crate::render::{Line, Viewport};
 use crate::ui::peduncle;
-use crate::ui::true_axes::Stage;
+use crate::ui::true_axes::AxisView;
 use crate::view::{Anchor, Primitive, lay_out};
 
 /// Radians a logical pixel of dragging.
@@ -49,13 +49,13 @@ pub(in crate::ui) fn show(
     } else {
         navigate(ui, &response, rect, state, viewport, commands);
     }
-    let stage = Stage {
+    let axis_view = AxisView {
         view: EditView::Main,
         rect,
         camera: &state.camera,
         viewport,
     };
-    answer.is_hovered = stage.interact(ui, &response, state, commands);
+    answer.is_hovered = axis_view.interact(ui, &response, state, commands);
 
     let pixels_per_point = ui.ctx().pixels_per_point();
     if is_gpu {
@@ -91,7 +91,7 @@ pub(in crate::ui) fn show(
     for primitive in lay_out(&page, &state.camera, &measure) {
         paint(&painter, rect, &primitive);
     }
-    stage.paint(ui, &response, state);
+    axis_view.paint(ui, &response, state);
     notices(ui, rect, state);
     peduncle::paint(ui, &response, rect, state);
     answer

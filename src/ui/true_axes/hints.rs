@@ -1,4 +1,4 @@
-//! The bar over the view that says what the mouse does in edit mode, and that blind mode is on.
+//! The bar above the view that explains the mouse in edit mode and says when blind mode is on.
 
 use egui::{Frame, Label, Margin, Panel, RichText, Stroke, Ui};
 
@@ -7,7 +7,7 @@ use crate::app::State;
 use crate::app::true_axes::{Draft, Handle};
 use crate::ui::widgets::marks::color32;
 
-/// Shows it where there is something to say. It takes room of its own, so that it hides no points.
+/// Shows the bar in edit mode and in blind mode. It is a panel of its own, so that it covers no points.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State) {
     let annotating = &state.true_axes;
     let lines: Vec<String> = blind(state).into_iter().chain(editing(state)).collect();

@@ -1,28 +1,28 @@
-//! True axes by hand: their panel, what the mouse does in edit mode, the locked views, and the keys.
+//! True axes set by hand: the panel, editing in the views, the locked views, and the keyboard shortcuts.
 
-mod agreement;
-mod ask;
+mod annotators;
+mod axis_view;
+mod dialogs;
 mod hints;
-mod keys;
-mod locked;
-mod own;
+mod locked_views;
+mod own_axis;
 mod panel;
-mod stage;
+mod shortcuts;
 
-pub(in crate::ui) use ask::{Farewell, ask_name};
+pub(in crate::ui) use axis_view::AxisView;
+pub(in crate::ui) use dialogs::{CloseDecision, ask_name};
 pub(in crate::ui) use hints::show as hint_bar;
-pub(in crate::ui) use keys::{actions, history};
-pub(in crate::ui) use locked::show as locked_views;
+pub(in crate::ui) use locked_views::show as locked_views;
 pub use panel::show;
-pub(in crate::ui) use stage::Stage;
+pub(in crate::ui) use shortcuts::{actions, history};
 
 use crate::app::{Command, TrueAxesCommand};
 use crate::render::Color;
 
-/// The axis that is being set: a hue apart from the computed axis and the reference.
+/// The color of the axis that is being set, distinct from those of the computed axis and the reference.
 const OWN: Color = [0xff, 0x5c, 0xd6, 255];
 
-/// Hues of other people's axes.
+/// The colors of the other annotators' axes.
 const OTHERS: [Color; 6] = [
     [0xff, 0xb0, 0x00, 255],
     [0x48, 0xc9, 0xff, 255],

@@ -1,23 +1,23 @@
-//! The panel of true axes: who sets them, whether they are saved, one's own, and everybody's.
+//! The panel of true axes: the annotator, the state of the files, the own axis, and the other annotators'.
 
 use egui::{Button, ComboBox, ProgressBar, RichText, Role as Spoken, TextEdit, Ui, WidgetInfo};
 
-use super::{agreement, own, say};
+use super::{annotators, own_axis, say};
 use crate::annotate::{Author, Role};
 use crate::app::true_axes::Saving;
 use crate::app::{Command, Source, State, TrueAxesCommand};
 use crate::text::sentence;
 use crate::ui::widgets::controls::{caution, hint};
 
-/// Shows the panel, and says what is wanted.
+/// Shows the panel, and appends the commands of its controls.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 4.0;
     who(ui, state, commands);
     mode(ui, state, commands);
     files(ui, state, commands);
     progress(ui, state, commands);
-    own::show(ui, state, commands);
-    agreement::show(ui, state, commands);
+    own_axis::show(ui, state, commands);
+    annotators::show(ui, state, commands);
 }
 
 fn who(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
@@ -104,7 +104,7 @@ fn mode(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     }
 }
 
-/// Whether the axis is on the disk, and what ought to be known about its files.
+/// Shows whether the axis is saved, and the notices about its files.
 fn files(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let annotating = &state.true_axes;
     if annotating.is_editing && annotating.subject.is_some() {

@@ -100,14 +100,14 @@ impl Window {
         if self.may_close || (!is_asked && !self.is_closing) {
             return;
         }
-        match true_axes::Farewell::of(ctx, self.app.state(), commands) {
-            true_axes::Farewell::Close if is_asked => {}
-            true_axes::Farewell::Close => {
+        match true_axes::CloseDecision::of(ctx, self.app.state(), commands) {
+            true_axes::CloseDecision::Close if is_asked => {}
+            true_axes::CloseDecision::Close => {
                 self.may_close = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
-            true_axes::Farewell::Stay => self.is_closing = false,
-            true_axes::Farewell::Wait => {
+            true_axes::CloseDecision::Stay => self.is_closing = false,
+            true_axes::CloseDecision::Wait => {
                 self.is_closing = true;
                 ctx.send_viewport_cmd(ViewportCommand::CancelClose);
                 ctx.request_repaint_after(Duration::from_millis(50));

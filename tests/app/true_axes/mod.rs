@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::helpers::driving::{act, app, asset, settle};
-use axiscope::annotate::{Annotation, Author, Confidence, Ends, Finding, Judgment, Method, Pivot, Role};
+use axiscope::annotate::{Annotation, Author, Confidence, Ends, Judgment, Method, Pivot, Role};
 use axiscope::app::true_axes::{Decision, Draft, EditView, Ghost, Handle, Saving, Turn};
 use axiscope::app::{App, Command, Sample, Session, Tool, TrueAxesCommand, TruthChoice};
 use axiscope::method::AxisSource;

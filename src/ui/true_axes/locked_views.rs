@@ -1,22 +1,22 @@
-//! The three locked views beside the large one, without perspective: front, side and end-on.
+//! The three locked views beside the large one: orthographic, from the front, from the side and end-on.
 
 use egui::{
     Color32, FontId, Frame, Panel, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::stage::Stage;
+use super::axis_view::AxisView;
 use crate::app::true_axes::EditView;
 use crate::app::{Command, State};
 use crate::render::Viewport;
 use crate::ui::inspector::paint::ViewCallback;
 
-/// Shows them in edit mode; says whether the cursor is in one that takes clicks.
+/// Shows the views in edit mode. Returns whether the cursor is in one that takes clicks.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, is_gpu: bool, commands: &mut Vec<Command>) -> bool {
     if !state.true_axes.is_editing || state.true_axes.locked.is_none() {
         return false;
     }
     let room = ui.available_rect_before_wrap();
-    // All three fit under one another, and the large view stays the largest.
+    // Narrow enough for three squares under one another, and for the large view to stay the largest.
     let width = (room.height() / 3.0).min(0.34 * room.width()).max(96.0);
     let panel = Panel::right("locked views")
         .resizable(true)
@@ -56,16 +56,16 @@ fn one(
     response
         .widget_info(|| WidgetInfo::labeled(Role::Canvas, true, format!("Locked view: {}", view.title())));
     let viewport = Viewport::new(rect.width().into(), rect.height().into());
-    let stage = Stage {
+    let axis_view = AxisView {
         view,
         rect,
         camera: &cameras[i],
         viewport,
     };
-    let is_hovered = stage.interact(ui, &response, state, commands);
+    let is_hovered = axis_view.interact(ui, &response, state, commands);
     if is_gpu {
         let scale = ui.ctx().pixels_per_point();
-        // At least a pixel, at most some thousand.
+        // Between one pixel and some thousand, so the conversion is exact.
         let size_px = [rect.width(), rect.height()].map(|s| (s * scale).round().max(1.0) as u32);
         ui.painter().add(eframe::egui_wgpu::Callback::new_paint_callback(
             rect,
@@ -84,7 +84,7 @@ fn one(
     if view != EditView::EndOn {
         upright(ui, rect, quiet);
     }
-    stage.paint(ui, &response, state);
+    axis_view.paint(ui, &response, state);
     let stroke = Stroke::new(1.0, ui.visuals().widgets.noninteractive.bg_stroke.color);
     ui.painter().rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
     let at = rect.min + vec2(7.0, 5.0);
@@ -104,7 +104,7 @@ fn tip(view: EditView) -> &'static str {
     }
 }
 
-/// A thin line in the middle, by which an eye judges symmetry.
+/// Draws a thin vertical line in the middle, by which the eye judges symmetry.
 fn upright(ui: &Ui, rect: Rect, color: Color32) {
     let x = rect.center().x;
     let stroke = Stroke::new(1.0, color.gamma_multiply(0.25));

@@ -1,4 +1,5 @@
-//! Under which names an annotator's files lie: those that must not be touched are passed over.
+//! The choice of the files that belong to one annotator and cloud. Foreign files of the same name are never touched:
+//! a further copy, `CLOUD.NAME.2.axis.json`, is used instead.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,17 +8,18 @@ use super::files::failed;
 use super::journal::{Journal, JournalError, read_journal};
 use super::{Annotation, Author, CloudId, FileError, Files, Notice, StoreError};
 
-/// How many names are tried.
+/// The number of names that are tried.
 pub(super) const COPIES: u32 = 99;
 
-/// A name that was tried: nothing there, one of ours, or one that must not be touched.
-pub(super) enum Slot<T> {
+/// A name that was tried: free, the annotator's own file with its content, or a foreign file with the reason why it is
+/// not theirs.
+pub(super) enum Candidate<T> {
     Free,
-    Ours(T),
-    Kept(String),
+    Own(T),
+    Foreign(String),
 }
 
-/// The axis in a file, if it is this author's of this cloud; else why not.
+/// Reads the axis in a file. Returns the reason, as the end of a sentence, if it is not this author's axis of this cloud.
 pub(super) fn axis_of(bytes: &[u8], cloud: &CloudId, author: &Author) -> Result<Annotation, String> {
     let axis = Annotation::from_json(bytes).map_err(|error: FileError| error.to_string())?;
     if axis.cloud.sha256 != cloud.sha256 {
@@ -29,18 +31,18 @@ pub(super) fn axis_of(bytes: &[u8], cloud: &CloudId, author: &Author) -> Result<
     Ok(axis)
 }
 
-pub(super) fn slot<T>(
+pub(super) fn candidate<T>(
     read: io::Result<Option<Vec<u8>>>,
     parse: impl Fn(Vec<u8>) -> Result<T, String>,
-) -> Slot<T> {
+) -> Candidate<T> {
     match read {
-        Ok(None) => Slot::Free,
-        Ok(Some(bytes)) => parse(bytes).map_or_else(Slot::Kept, Slot::Ours),
-        Err(error) => Slot::Kept(format!("it cannot be read ({error})")),
+        Ok(None) => Candidate::Free,
+        Ok(Some(bytes)) => parse(bytes).map_or_else(Candidate::Foreign, Candidate::Own),
+        Err(error) => Candidate::Foreign(format!("it cannot be read ({error})")),
     }
 }
 
-/// The journal of this author for this cloud, claimed and read.
+/// Finds, locks and reads the journal of this author for this cloud. Returns its path, its content and notices.
 pub(super) fn find_journal(
     files: &mut dyn Files,
     cloud_path: &Path,
@@ -52,20 +54,24 @@ pub(super) fn find_journal(
     };
     let mut kept = Vec::new();
     let name = |copy| author.journal_path(cloud_path, copy);
-    let (path, journal) = choose(name, |path| slot(files.read(path, u64::MAX), parse), &mut kept)?;
+    let (path, journal) = choose_file(
+        name,
+        |path| candidate(files.read(path, u64::MAX), parse),
+        &mut kept,
+    )?;
     if journal.is_none() {
         return Ok((path, Journal::default(), kept));
     }
     match files.claim(&path) {
         Err(error) if error.kind() == io::ErrorKind::ResourceBusy => return Err(failed(&path, error)),
-        // Whether it can be written is told later; it can be read.
+        // A journal that cannot be opened for writing can still be read; the error shows when it is written.
         _ => {}
     }
-    // Again, now that nobody else writes it.
-    let journal = match slot(files.read(&path, u64::MAX), parse) {
-        Slot::Ours(journal) => journal,
-        Slot::Free => Journal::default(),
-        Slot::Kept(reason) => {
+    // Read again under the lock: another program may have appended to it in between.
+    let journal = match candidate(files.read(&path, u64::MAX), parse) {
+        Candidate::Own(journal) => journal,
+        Candidate::Free => Journal::default(),
+        Candidate::Foreign(reason) => {
             let error = io::Error::other(reason);
             return Err(StoreError::Io { path, error });
         }
@@ -73,25 +79,26 @@ pub(super) fn find_journal(
     Ok((path, journal, kept))
 }
 
-/// The name to write under: the last that is ours already, else the first that is free.
-pub(super) fn choose<T>(
+/// Chooses the file to write: the annotator's own file with the highest copy number, else the first free name.
+/// Returns its path, and its content if it exists.
+pub(super) fn choose_file<T>(
     name: impl Fn(u32) -> PathBuf,
-    mut look: impl FnMut(&Path) -> Slot<T>,
+    mut look: impl FnMut(&Path) -> Candidate<T>,
     notices: &mut Vec<Notice>,
 ) -> Result<(PathBuf, Option<T>), StoreError> {
     let (mut ours, mut free, mut kept) = (None, None, Vec::new());
     for path in (1..=COPIES).map(&name) {
         match look(&path) {
-            Slot::Ours(content) => ours = Some((path, content)),
-            Slot::Free => free = free.or(Some(path)),
-            Slot::Kept(reason) => kept.push((path, reason)),
+            Candidate::Own(content) => ours = Some((path, content)),
+            Candidate::Free => free = free.or(Some(path)),
+            Candidate::Foreign(reason) => kept.push((path, reason)),
         }
     }
     let (path, content) = match ours {
         Some((path, content)) => (path, Some(content)),
         None => (free.ok_or_else(|| StoreError::NoName { path: name(1) })?, None),
     };
-    notices.extend(kept.into_iter().map(|(kept, reason)| Notice::KeptBeside {
+    notices.extend(kept.into_iter().map(|(kept, reason)| Notice::NotOverwritten {
         kept,
         reason,
         instead: path.clone(),

@@ -1,4 +1,4 @@
-//! What can be done about true axes with a key.
+//! The actions on true axes, with their keyboard shortcuts.
 
 use egui::Key;
 
@@ -11,8 +11,8 @@ fn action(title: impl Into<String>, command: TrueAxesCommand) -> Action {
     Action::app(Group::TrueAxis, title, Command::TrueAxes(command))
 }
 
-/// Everything about true axes, as things are now. Most keys count in edit mode alone, before what they
-/// mean otherwise.
+/// Returns all actions on true axes, enabled as the state allows. Most of their keys work in edit mode only, where they
+/// take precedence over other meanings.
 pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
     let annotating = &state.true_axes;
     let is_file = matches!(state.source(), Some(crate::app::Source::File(_)));
@@ -48,7 +48,7 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
     all
 }
 
-/// In edit mode: undo, redo and escape.
+/// Returns the actions of undo, redo and Escape in edit mode; `None` outside it.
 pub(in crate::ui) fn history(state: &State) -> Option<[Action; 3]> {
     let annotating = &state.true_axes;
     if !annotating.is_editing {

@@ -1,8 +1,9 @@
-//! Everybody's axes of this cloud and of all open ones, how far they agree, and the decision.
+//! The annotators' section of the panel: all axes of this cloud and of all open ones, their agreement, and the
+//! adjudication.
 
 use egui::{Button, Grid, ProgressBar, RichText, Sense, Ui, vec2};
 
-use super::{say, stage::other_color};
+use super::{axis_view::other_color, say};
 use crate::annotate::{Annotation, CloudAgreement, FAR_OFF_DEG, Role};
 use crate::app::true_axes::{Decision, SetReport};
 use crate::app::{Command, State, TrueAxesCommand};
@@ -10,10 +11,10 @@ use crate::geometry::angle_between_lines_rad;
 use crate::ui::widgets::controls::{caution, hint, section};
 use crate::ui::widgets::marks::color32;
 
-/// Rows of a table that are shown before it has to be opened.
-const ROWS: usize = 12;
+/// The number of clouds in the list of the largest disagreements.
+const WORST_CLOUDS: usize = 12;
 
-/// Shows it, unless blind mode hides it.
+/// Shows the section, unless blind mode hides it.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let annotating = &state.true_axes;
     ui.separator();
@@ -256,7 +257,7 @@ fn pairs_of_set(ui: &mut Ui, report: &SetReport) {
         });
 }
 
-/// The clouds about which annotators disagree most; a click opens one.
+/// Lists the clouds about which the annotators disagree most; a click opens one.
 fn worst(ui: &mut Ui, state: &State, report: &SetReport, commands: &mut Vec<Command>) {
     let mut worst: Vec<(f64, &CloudAgreement)> = report
         .agreement
@@ -267,10 +268,10 @@ fn worst(ui: &mut Ui, state: &State, report: &SetReport, commands: &mut Vec<Comm
     if worst.is_empty() {
         return;
     }
-    // Few have several annotators, and the list is only made while the section is open.
+    // Sorting in every frame is cheap: few clouds have several annotators, and the section is closed by default.
     worst.sort_by(|a, b| b.0.total_cmp(&a.0));
     hint(ui, "Where they disagree most:");
-    for (angle, cloud) in worst.into_iter().take(ROWS) {
+    for (angle, cloud) in worst.into_iter().take(WORST_CLOUDS) {
         let far = if cloud.far_off.is_empty() {
             String::new()
         } else {

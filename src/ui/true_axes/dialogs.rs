@@ -1,4 +1,4 @@
-//! What edit mode asks: who sets the axis, and what is to become of axes that could not be saved.
+//! The dialogs of edit mode: the annotator's name, and closing a window with axes that could not be saved.
 
 use egui::{Id, Key, Modal, RichText, TextEdit};
 
@@ -8,7 +8,7 @@ use crate::app::true_axes::Saving;
 use crate::app::{Command, State, TrueAxesCommand};
 use crate::text::sentence;
 
-/// Asks for the annotator's name, once.
+/// Shows the dialog for the annotator's name while the state asks for it.
 pub(in crate::ui) fn ask_name(ctx: &egui::Context, state: &State, commands: &mut Vec<Command>) {
     if !state.true_axes.asks_name {
         return;
@@ -54,19 +54,19 @@ pub(in crate::ui) fn ask_name(ctx: &egui::Context, state: &State, commands: &mut
     });
 }
 
-/// What is to be done with a window that is being closed.
+/// The decision about a window that is to be closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::ui) enum Farewell {
-    /// Something is still being written.
+pub(in crate::ui) enum CloseDecision {
+    /// The window waits for files that are being written, or for an answer.
     Wait,
-    /// It stays open.
+    /// The window stays open.
     Stay,
-    /// It closes.
+    /// The window closes.
     Close,
 }
 
-impl Farewell {
-    /// What becomes of it; asks where an axis could not be saved.
+impl CloseDecision {
+    /// Decides, by a dialog if an axis could not be saved.
     pub(in crate::ui) fn of(ctx: &egui::Context, state: &State, commands: &mut Vec<Command>) -> Self {
         let annotating = &state.true_axes;
         if !annotating.is_unsaved() {

@@ -1,4 +1,4 @@
-//! The axis in one view: how it is drawn, and what the left button does there in edit mode.
+//! The axis in one view: its drawing, and the actions of the left button in edit mode.
 
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, PointerButton, Pos2, Rect, Shape, Stroke, vec2};
 use glam::{DVec2, DVec3};
@@ -12,15 +12,15 @@ use crate::ui::widgets::marks::color32;
 
 const HALO: Color32 = Color32::from_rgb(0x10, 0x12, 0x14);
 
-/// One view.
-pub(in crate::ui) struct Stage<'a> {
+/// A view in which the axis is drawn and edited.
+pub(in crate::ui) struct AxisView<'a> {
     pub(in crate::ui) view: EditView,
     pub(in crate::ui) rect: Rect,
     pub(in crate::ui) camera: &'a Camera,
     pub(in crate::ui) viewport: Viewport,
 }
 
-impl Stage<'_> {
+impl AxisView<'_> {
     fn local(&self, at: Pos2) -> DVec2 {
         let from = at - self.rect.min;
         DVec2::new(from.x.into(), from.y.into())
@@ -31,7 +31,7 @@ impl Stage<'_> {
         Some(self.rect.min + vec2(at.x as f32, at.y as f32))
     }
 
-    /// What the left button and the cursor do; whether the cursor is here.
+    /// Handles the left button and sets the cursor's icon. Returns whether the cursor is in this view.
     pub(in crate::ui) fn interact(
         &self,
         ui: &egui::Ui,
@@ -44,7 +44,7 @@ impl Stage<'_> {
             return false;
         }
         let hover = response.hover_pos().map(|at| self.local(at));
-        // With Shift on the surface under the cursor, else inside the fruit.
+        // With Shift an end lands on the surface under the cursor, otherwise inside the fruit.
         let on_surface = self.view == EditView::Main && ui.input(|i| i.modifiers.shift);
         let surface = on_surface.then(|| {
             let shown = state.look.as_ref().map(|look| &look.shown);
@@ -114,7 +114,7 @@ impl Stage<'_> {
         }
     }
 
-    /// The handle that a press would grab, or that is held.
+    /// Returns the handle that is held, or that a press would grab.
     fn hovered(&self, response: &egui::Response, state: &State) -> Option<Handle> {
         let annotating = &state.true_axes;
         if let Some(grab) = annotating.grabbed {
@@ -124,7 +124,7 @@ impl Stage<'_> {
         annotating.handle_at(self.local(at), self.camera, self.viewport)
     }
 
-    /// Draws everybody's axes, the own one, and where a click would land.
+    /// Draws the other annotators' axes, the own one, and the point at which a click would land.
     pub(in crate::ui) fn paint(&self, ui: &egui::Ui, response: &egui::Response, state: &State) {
         let annotating = &state.true_axes;
         let painter = ui.painter().with_clip_rect(self.rect);
@@ -171,7 +171,7 @@ impl Stage<'_> {
         }
     }
 
-    /// A disc for the base, a ring for the blossom end, a small diamond for the whole.
+    /// Draws a handle: a disc for the base, a ring for the blossom end, a small diamond for the whole axis.
     fn handle(&self, painter: &Painter, handle: Handle, place: DVec3, stands_out: bool) {
         let Some(at) = self.place(place) else { return };
         let scale = if self.view == EditView::Main { 1.0 } else { 0.8 };
@@ -195,7 +195,7 @@ impl Stage<'_> {
         }
     }
 
-    /// The ends' names, in the large view.
+    /// Draws the names of the ends, in the large view only.
     fn labels(&self, painter: &Painter, ends: &[(Handle, DVec3)]) {
         if self.view == EditView::Main {
             for (handle, place) in ends {
@@ -210,7 +210,7 @@ impl Stage<'_> {
         }
     }
 
-    /// Everybody else's axes, and in the large view whose they are.
+    /// Draws the other annotators' axes, in the large view with their names.
     fn others(&self, painter: &Painter, state: &State) {
         let annotating = &state.true_axes;
         let own = annotating.author().ok().filter(|_| annotating.is_editing);
@@ -252,7 +252,7 @@ impl Stage<'_> {
                 }
             }
         }
-        // Above the ends, and above one another where they lie close.
+        // Names stand above the ends, and are stacked where they would overlap.
         names.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
         let mut taken: Vec<Rect> = Vec::new();
         for (at, name, color) in names {
@@ -269,7 +269,7 @@ impl Stage<'_> {
     }
 }
 
-/// The color of somebody's axis.
+/// Returns the color of an annotator's axis, the `i`-th of the cloud.
 pub(in crate::ui) fn other_color(annotation: &Annotation, i: usize) -> crate::render::Color {
     match annotation.role {
         Role::Annotator => OTHERS[i % OTHERS.len()],
@@ -277,7 +277,7 @@ pub(in crate::ui) fn other_color(annotation: &Annotation, i: usize) -> crate::re
     }
 }
 
-/// Text on a plate that stays within the view.
+/// Draws text on a plate, which is shifted into the view.
 fn write(painter: &Painter, within: Rect, text: &str, at: Pos2, color: Color32) {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.5), color);
     let mut plate = Align2::LEFT_CENTER
@@ -293,7 +293,7 @@ fn write(painter: &Painter, within: Rect, text: &str, at: Pos2, color: Color32) 
     painter.galley(plate.min + vec2(4.0, 2.0), galley, color);
 }
 
-/// Asks which point is under the cursor, where that has changed: finding it takes a walk over all of them.
+/// Requests the point under the cursor, once per position of the cursor: the search visits every point.
 fn ask_for_surface(
     ui: &egui::Ui,
     view: egui::Id,

@@ -1,4 +1,4 @@
-//! The axis that is being set: its numbers, what turns it, and what is said of it.
+//! The section of the axis that is being set: its coordinates, the buttons that change it, confidence and note.
 
 use egui::{Button, ComboBox, Response, Role as Spoken, TextEdit, Ui, WidgetInfo};
 
@@ -8,7 +8,7 @@ use crate::app::true_axes::{Ghost, Turn};
 use crate::app::{Command, State, TrueAxesCommand};
 use crate::ui::widgets::controls::{Coordinates, Number, decimals, hint, row};
 
-/// Shows it in edit mode.
+/// Shows the section in edit mode.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let annotating = &state.true_axes;
     if !annotating.can_edit() {
@@ -33,7 +33,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     }
 }
 
-/// What a field that was dragged, stepped or typed into asks for.
+/// Says the command of a field that was dragged, stepped or typed into: a preview during a drag, an edit otherwise.
 fn edited(response: &Response, ends: Result<Ends, crate::annotate::EndsError>, commands: &mut Vec<Command>) {
     if response.changed()
         && let Ok(ends) = ends
@@ -247,7 +247,7 @@ fn said(ui: &mut Ui, state: &State, judgment: &Judgment, commands: &mut Vec<Comm
             let is_on = judgment.confidence == Some(value);
             let button = Button::selectable(is_on, text).frame_when_inactive(true);
             if ui.add(button).clicked() {
-                // A second click takes it back.
+                // A second click clears the confidence.
                 let wanted = (!is_on).then_some(value);
                 say(commands, TrueAxesCommand::Confidence(wanted));
             }
