@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for path in clouds_in(&folder)? {
         // A cloud that cannot be read or analyzed is a row as well: it holds the reason.
         let name = Row::name_in(&folder, &path);
-        let (outcome, _examined) = Outcome::of_file(&name, &path, &request, &())?;
+        let (outcome, _examination) = Outcome::of_file(&name, &path, &request, &())?;
         let row = outcome.row();
         println!(
             "{:<24} {:>8} {:>8}  {}",

@@ -28,18 +28,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
 
     // The second argument of a long computation watches its progress and may cancel it; `()` does neither.
-    let examined = examine(fruit, &request, &())?;
-    for warning in &examined.warnings {
+    let examination = examine(fruit, &request, &())?;
+    for warning in &examination.warnings {
         println!("Warning: {warning}");
     }
 
     // There is no axis if no plane has enough points with a partner; a warning says so.
-    let Some(axis) = &examined.analysis.axis else {
+    let Some(axis) = &examination.analysis.axis else {
         return Err("the cloud has no symmetry axis".into());
     };
     println!("center    {:.4}", axis.origin);
     println!("direction {:.4}", axis.direction);
-    for reference in &examined.references {
+    for reference in &examination.references {
         let error_deg = axis_error_rad(axis, reference).to_degrees();
         println!("{error_deg:5.2}° to the axis by {}", reference.source.name());
     }

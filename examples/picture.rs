@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let request = Request::default();
     let fruit = Fruit::read(&path, &request)?;
-    let examined = examine(fruit, &request, &())?;
+    let examination = examine(fruit, &request, &())?;
 
     let drawing = Drawing {
         size_px: [800, 600],
@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let gpu = Gpu::headless()?;
-    let image = draw_cloud(&examined.drawn(&name, TruthChoice::Truth), &drawing, &gpu, &())?;
+    let image = draw_cloud(&examination.drawn(&name, TruthChoice::Truth), &drawing, &gpu, &())?;
 
     // The PNG carries the command line that draws it: `axiscope render --from PICTURE.png -o COPY.png` does so.
     let (cloud, png) = (path.display().to_string(), out.display().to_string());
@@ -66,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .map(String::from)
         .into(),
         cloud,
-        sha256: examined.fruit.file.sha256.clone(),
+        sha256: examination.fruit.file.sha256.clone(),
     };
     std::fs::write(&out, encode_picture(&image, &settings)?)?;
     println!("Wrote {}.", out.display());

@@ -22,11 +22,11 @@
 //! // As the paper's authors meant the method, with the unit and the peduncle that the file states.
 //! let request = Request::default();
 //! let fruit = Fruit::read("assets/pepper.ply".as_ref(), &request)?;
-//! let examined = examine(fruit, &request, &())?;
+//! let examination = examine(fruit, &request, &())?;
 //!
 //! // This pepper was simulated: its true axis lies in a file beside it.
-//! let axis = examined.analysis.axis.as_ref().expect("a plane wins, and it has an axis");
-//! let truth = reference_of(&examined.references, TruthChoice::Truth).expect("pepper.truth.json");
+//! let axis = examination.analysis.axis.as_ref().expect("a plane wins, and it has an axis");
+//! let truth = reference_of(&examination.references, TruthChoice::Truth).expect("pepper.truth.json");
 //! let error_deg = axis_error_rad(axis, truth).to_degrees();
 //! assert!(error_deg < 10.0);
 //! # Ok(())

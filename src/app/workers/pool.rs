@@ -21,8 +21,9 @@ type Task = Box<dyn FnOnce() + Send>;
 struct Threads {
     tasks: VecDeque<Task>,
     running: usize,
-    /// The number of the running threads that wait for a task.
-    idle: usize,
+    /// The number of the running threads that are at work. All others take the next task, those that have just been
+    /// started among them.
+    busy: usize,
 }
 
 #[derive(Default)]
@@ -61,7 +62,7 @@ impl Pool {
         let mut threads = locked(&self.shared.threads);
         threads.tasks.push_back(Box::new(task));
         // Without another thread, the task waits for one of those that run; without any, it runs here.
-        if threads.tasks.len() > threads.idle
+        if threads.tasks.len() > threads.running - threads.busy
             && self.start_thread(&mut threads).is_err()
             && threads.running == 0
             && let Some(task) = threads.tasks.pop_back()
@@ -103,18 +104,18 @@ fn work(shared: &Shared) {
     let mut threads = locked(&shared.threads);
     loop {
         if let Some(task) = threads.tasks.pop_front() {
+            threads.busy += 1;
             drop(threads);
             // A job catches its own fault, to tell it; this is for the others, as dropping a value.
             let _ = catch_unwind(AssertUnwindSafe(task));
             threads = locked(&shared.threads);
+            threads.busy -= 1;
             continue;
         }
-        threads.idle += 1;
         let waited = shared
             .has_task
             .wait_timeout_while(threads, IDLE, |threads| threads.tasks.is_empty());
         (threads, _) = waited.unwrap_or_else(PoisonError::into_inner);
-        threads.idle -= 1;
         if threads.tasks.is_empty() {
             threads.running -= 1;
             return;
