@@ -171,7 +171,7 @@ impl App {
 
     /// Keeps rows in a folder, so that they need not be worked out again the next time.
     pub fn keep_rows_in(&mut self, folder: PathBuf) {
-        self.many.keep_rows_in(folder, &mut self.context);
+        self.many.keep_rows_in(folder, &self.context);
     }
 
     /// The number of files that were read in the background to know their hash: for tests of the cache.

@@ -101,7 +101,7 @@ struct SweepRow {
 /// Writes the map as CSV.
 fn sweep_table(map: &Sweep) -> Result<Vec<u8>, TableError> {
     let failed = |error: String| TableError::Csv(error);
-    let mut table = csv_writer();
+    let mut table = ::csv::Writer::from_writer(Vec::new());
     for (i, &u) in map.settings.u.iter().enumerate() {
         for (j, &tau_cm_per_rad) in map.settings.tau_cm_per_rad.iter().enumerate() {
             let (mean_error_deg, clouds) = map.cell(i, j);
@@ -115,8 +115,4 @@ fn sweep_table(map: &Sweep) -> Result<Vec<u8>, TableError> {
         }
     }
     table.into_inner().map_err(|e| failed(e.to_string()))
-}
-
-fn csv_writer() -> ::csv::Writer<Vec<u8>> {
-    ::csv::Writer::from_writer(Vec::new())
 }
