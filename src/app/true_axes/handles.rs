@@ -18,7 +18,7 @@ pub enum EditView {
 }
 
 impl EditView {
-    /// The locked ones, in the order of [`TrueAxesState::locked`].
+    /// The locked ones, in the order of [`TrueAxesState::locked`](super::TrueAxesState::locked).
     pub const LOCKED: [Self; 3] = [Self::Front, Self::Side, Self::EndOn];
 
     /// The name in the interface.
