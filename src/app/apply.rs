@@ -6,7 +6,7 @@ use super::history::History;
 use super::state::{Command, PlaneChoice, Settings, Tool};
 use super::{App, PickQuestion};
 use crate::app::inspector::navigate::{framed_camera, preset_camera, projected};
-use crate::app::inspector::stages::{Source, Walked};
+use crate::app::inspector::stages::{AnalyzedFruit, Source};
 use crate::app::true_axes::AnnotateCommand;
 use crate::fruit::Request;
 use crate::geometry::Unit;
@@ -264,7 +264,7 @@ impl App {
     }
 
     /// In a new grid, the plane that was looked at is the one whose normal is nearest.
-    pub(super) fn keep_direction(&mut self, walked: &Walked) {
+    pub(super) fn keep_direction(&mut self, walked: &AnalyzedFruit) {
         let (PlaneChoice::At { .. }, Some(before)) = (self.state.settings.plane, self.state.analysis())
         else {
             return;

@@ -36,7 +36,7 @@ use crate::view::ShownPoints;
 use history::History;
 use inspector::details::Details;
 use inspector::look::{Look, Style};
-use inspector::stages::{Stages, WalkError};
+use inspector::stages::{AnalyzeError, FruitStages};
 use many::{Folder, FolderState};
 use workers::{Discard, Lane, Repaint};
 
@@ -45,7 +45,7 @@ pub use inspector::command_line::{analysis_options, command_line, quoted};
 #[cfg(feature = "window")]
 pub use inspector::drawing::{Drawing, DrawingError, draw as draw_cloud};
 pub use inspector::navigate::{default_camera, dragged};
-pub use inspector::stages::{Source, Walked};
+pub use inspector::stages::{AnalyzedFruit, Source};
 pub use inspector::written::Written;
 pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
@@ -61,7 +61,7 @@ const PLANES_PER_SECOND: f64 = 6.0;
 
 type Arrival = (Source, Arc<crate::fruit::Fruit>, Arc<ShownPoints>);
 
-type WalkResult = (Stages, Result<Walked, WalkError>);
+type AnalysisResult = (FruitStages, Result<AnalyzedFruit, AnalyzeError>);
 
 /// What was last asked of the analysis worker.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,9 +95,9 @@ struct PickQuestion {
 pub struct App {
     state: State,
     history: History<Settings>,
-    stages: Stages,
+    stages: FruitStages,
     details: Details,
-    analysis: Lane<WalkResult>,
+    analysis: Lane<AnalysisResult>,
     looks: Lane<Result<Look, Cancelled>>,
     picks: Lane<(PickQuestion, Option<usize>)>,
     images: Lane<Result<String, String>>,
@@ -138,7 +138,7 @@ impl App {
         Ok(Self {
             state,
             history: History::default(),
-            stages: Stages::default(),
+            stages: FruitStages::default(),
             details: Details::default(),
             analysis: Lane::new("analysis", repaint.clone())?,
             looks: Lane::new("look", repaint.clone())?,

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::peduncle::{PeduncleCommand, PeduncleState};
 use super::samples::Sample;
 use crate::app::inspector::look::{Look, Style};
-use crate::app::inspector::stages::{Source, Walked};
+use crate::app::inspector::stages::{AnalyzedFruit, Source};
 use crate::app::many::{FolderCommand, FolderState};
 use crate::app::true_axes::{AnnotateCommand, Annotating, KeptAnnotating};
 use crate::app::workers::Progress;
@@ -116,7 +116,7 @@ pub struct State {
     /// Whether there is something to redo.
     pub can_redo: bool,
     /// The newest analysis, which may be of older settings.
-    pub walked: Option<Arc<Walked>>,
+    pub walked: Option<Arc<AnalyzedFruit>>,
     /// A cloud that was read but not analyzed, and why: `None` where it only is not yet.
     pub unanalyzed: Option<(Arc<ShownPoints>, Option<String>)>,
     /// The axes to compare with.

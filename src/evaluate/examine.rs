@@ -2,7 +2,7 @@
 
 use crate::annotate::{Role, estimates};
 use crate::fruit::{Fruit, Request};
-use crate::method::{Analysis, AnalysisError, AxisEstimate, AxisSource, Observe, analyze, axis_error_rad};
+use crate::method::{Analysis, AnalysisError, AxisEstimate, AxisSource, Observe, Stages, axis_error_rad};
 use crate::text::sentence;
 use serde::{Deserialize, Serialize};
 
@@ -33,6 +33,8 @@ pub struct Examined {
     pub references: Vec<AxisEstimate>,
     /// What the reader ought to know: the file's warnings, then the method's. Sentences.
     pub warnings: Vec<String>,
+    /// The stages of the analysis, for others of the same cloud.
+    pub(super) stages: Stages,
 }
 
 /// Analyzes a fruit as asked, and gathers its references.
@@ -40,18 +42,19 @@ pub struct Examined {
 /// # Errors
 /// Where the cloud cannot be analyzed, or the watcher calls the work off.
 pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result<Examined, AnalysisError> {
-    let params = request.params(&fruit);
-    let analysis = if request.without_peduncle {
-        analyze(&fruit.body(), &params, observe)?
+    let mut stages = Stages::new(if request.without_peduncle {
+        fruit.body()
     } else {
-        analyze(fruit.cloud(), &params, observe)?
-    };
+        fruit.cloud().clone()
+    });
+    let analysis = stages.analyze(&request.params(&fruit), observe)?;
     let (references, warnings) = compared(&fruit, request, &analysis);
     Ok(Examined {
         fruit,
         analysis,
         references,
         warnings,
+        stages,
     })
 }
 

@@ -21,5 +21,5 @@ pub use results::{ResultsError, WorstPicture, result_files, worst_first};
 pub use row::Row;
 pub use start::{StartError, start_axis};
 pub use summary::Summary;
-pub use sweep::{Sweep, SweepError, SweepSettings, sweep_cloud};
+pub use sweep::{Sweep, SweepSettings, sweep_cloud};
 pub use table::{TableError, csv, parquet};

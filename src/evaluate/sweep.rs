@@ -1,11 +1,7 @@
 //! The error over a range of settings: u and τ, with everything else as it is.
 
-use glam::DVec3;
-
 use super::{Examined, TruthChoice, reference_of};
-use crate::geometry::angle_between_lines_rad;
-use crate::method::{CandidateGrid, ParamError, Ranking, plane_terms, symmetry_axis};
-use crate::parallel::{Cancelled, Watch};
+use crate::method::{AnalysisError, Observe, Params, axis_error_rad};
 
 /// The settings to try, each with each.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,17 +19,6 @@ pub struct Sweep {
     pub settings: SweepSettings,
     sums_deg: Vec<f64>,
     counts: Vec<usize>,
-}
-
-/// Why a cloud was not swept.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum SweepError {
-    /// A u is out of range.
-    #[error(transparent)]
-    Params(#[from] ParamError),
-    /// The work was called off.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
 }
 
 impl Sweep {
@@ -66,38 +51,30 @@ impl Sweep {
     }
 }
 
-/// One cloud's error in degrees at each setting, u-major; `None` where there is no axis or no
+/// Computes one cloud's error in degrees at each setting, u-major; `None` if it has no axis there or no
 /// reference. The planes' terms are computed once for each u, and ranked anew for each τ.
 ///
 /// # Errors
-/// Where a u is out of range, or the watch calls the work off.
+/// Returns an error if a u or τ is out of range, or `observe` cancels the work.
 pub fn sweep_cloud(
     examined: &Examined,
     choice: TruthChoice,
     settings: &SweepSettings,
-    watch: &dyn Watch,
-) -> Result<Vec<Option<f64>>, SweepError> {
-    let analysis = &examined.analysis;
-    let params = &analysis.params;
+    observe: &dyn Observe,
+) -> Result<Vec<Option<f64>>, AnalysisError> {
     let truth = reference_of(&examined.references, choice);
-    let error_deg = |axis: DVec3| truth.map(|t| angle_between_lines_rad(axis, t.direction).to_degrees());
+    let mut stages = examined.stages.clone();
     let mut errors = Vec::with_capacity(settings.u.len() * settings.tau_cm_per_rad.len());
     for &u in &settings.u {
-        let grid = CandidateGrid::new(u)?;
-        let terms = plane_terms(
-            &analysis.surface,
-            params.unit,
-            analysis.center,
-            params.viewpoint,
-            grid,
-            watch,
-        )?;
-        for &tau in &settings.tau_cm_per_rad {
-            let ranking = Ranking::new(&terms, tau, params.aggregation, params.min_partner_fraction);
-            let axis = ranking.best().ok().and_then(|best| {
-                symmetry_axis(grid.candidate(best).normal, analysis.center, params.viewpoint).ok()
-            });
-            errors.push(axis.and_then(error_deg));
+        for &tau_cm_per_rad in &settings.tau_cm_per_rad {
+            let params = Params {
+                u,
+                tau_cm_per_rad,
+                ..examined.analysis.params.clone()
+            };
+            let axis = stages.analyze(&params, observe)?.axis;
+            let error_rad = axis.zip(truth).map(|(axis, truth)| axis_error_rad(&axis, truth));
+            errors.push(error_rad.map(f64::to_degrees));
         }
     }
     Ok(errors)

@@ -6,7 +6,7 @@ use glam::DVec3;
 use crate::evaluate::{Examined, TruthChoice, reference_of};
 use crate::geometry::Plane;
 use crate::method::axis_error_rad;
-use crate::method::{Analysis, AxisEstimate, AxisSource, PlaneDetail, plane_detail, symmetry_axis};
+use crate::method::{Analysis, AxisEstimate, PlaneDetail, plane_detail};
 use crate::render::{Camera, DrawError, Gpu, Image, Projection, Viewport, draw_image};
 use crate::view::caption;
 use crate::view::{
@@ -185,13 +185,7 @@ fn looked_at(analysis: &Analysis, choice: Option<[usize; 2]>) -> Result<Option<L
             .index_of(g, h)
             .ok_or(DrawingError::NoSuchPlane { g, h, u: grid.u() })?,
     };
-    let candidate = grid.candidate(index);
-    let (center, params) = (analysis.center, &analysis.params);
-    let plane = Plane {
-        point: center,
-        normal: candidate.normal,
-    };
-    let axis = symmetry_axis(candidate.normal, center, params.viewpoint).ok();
+    let (plane, params) = (analysis.plane(index), &analysis.params);
     // Nobody calls it off.
     let Ok(detail) = plane_detail(&analysis.surface, params.unit, plane, params.viewpoint, &()) else {
         return Ok(None);
@@ -200,12 +194,7 @@ fn looked_at(analysis: &Analysis, choice: Option<[usize; 2]>) -> Result<Option<L
         plane,
         index,
         detail,
-        axis: axis.map(|direction| AxisEstimate {
-            source: AxisSource::SymmetryPlane,
-            origin: center,
-            direction,
-            confidence: None,
-        }),
+        axis: analysis.axis_of(index).ok(),
     }))
 }
 

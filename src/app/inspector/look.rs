@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::fruit::Fruit;
-use crate::geometry::{Cloud, Plane};
-use crate::method::{Analysis, AxisEstimate, AxisSource, PlaneDetail, plane_detail, symmetry_axis};
+use crate::geometry::Cloud;
+use crate::method::{Analysis, AxisEstimate, PlaneDetail, plane_detail};
 use crate::parallel::{Cancelled, Watch};
 use crate::peduncle::PeduncleSource;
 use crate::render::{Color, Scene};
@@ -185,31 +185,19 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
             before,
         ));
     };
-    let (center, params) = (analysis.center, &analysis.params);
-    let plane_of = |index: usize| Plane {
-        point: center,
-        normal: analysis.planes.grid.candidate(index).normal,
-    };
+    let params = &analysis.params;
     let detail = match (plane, detail) {
         (Some(index), None) => Some(Arc::new(plane_detail(
             &analysis.surface,
             params.unit,
-            plane_of(index),
+            analysis.plane(index),
             params.viewpoint,
             watch,
         )?)),
         (_, known) => known,
     };
-    let axis = plane.and_then(|index| {
-        let direction = symmetry_axis(plane_of(index).normal, center, params.viewpoint).ok()?;
-        Some(AxisEstimate {
-            source: AxisSource::SymmetryPlane,
-            origin: center,
-            direction,
-            confidence: None,
-        })
-    });
-    settings.plane = plane.map(plane_of);
+    let axis = plane.and_then(|index| analysis.axis_of(index).ok());
+    settings.plane = plane.map(|index| analysis.plane(index));
     settings.axis = axis.as_ref();
     let subject = Subject {
         shown: &shown,

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::look::{Look, Question, look};
 use super::navigate::{default_camera, framed_camera};
-use super::stages::{Source, WalkError, Walked};
+use super::stages::{AnalyzeError, AnalyzedFruit, Source};
 use crate::app::workers::Crashed;
 use crate::app::{App, Asked, PATIENCE, PLANES_PER_SECOND, PickQuestion, Seen, sentence_of_file};
 use crate::evaluate::compared;
@@ -44,7 +44,7 @@ impl App {
         }
         self.asked = Some(wanted.clone());
         self.state.was_cancelled = false;
-        if let Some(walked) = self.stages.at_once(&wanted.source, &wanted.settings) {
+        if let Some(walked) = self.stages.analyze_kept(&wanted.source, &wanted.settings) {
             self.analysis.cancel();
             self.accept(Ok(walked));
             return;
@@ -60,7 +60,7 @@ impl App {
                 let _ = arrivals.send((wanted.source.clone(), fruit.clone(), shown));
                 repaint();
             };
-            let result = stages.walk(&wanted.source, &wanted.settings, watch, &arrived);
+            let result = stages.analyze(&wanted.source, &wanted.settings, watch, &arrived);
             (stages, result)
         });
         self.take_analysis(Some(PATIENCE));
@@ -108,7 +108,7 @@ impl App {
         }
     }
 
-    pub(in crate::app) fn accept(&mut self, result: Result<Walked, WalkError>) {
+    pub(in crate::app) fn accept(&mut self, result: Result<AnalyzedFruit, AnalyzeError>) {
         self.shown_generation += 1;
         let current = self.state.current;
         let mut set_problem = |problem: Option<String>| {
@@ -142,7 +142,7 @@ impl App {
                 self.state.is_stale = false;
                 self.take_current_row();
             }
-            Err(WalkError::Analysis { fruit, shown, error }) => {
+            Err(AnalyzeError::Analysis { fruit, shown, error }) => {
                 set_problem(Some(sentence(&error.to_string())));
                 self.state.warnings.clone_from(&fruit.warnings);
                 self.forget_analysis();
@@ -150,13 +150,13 @@ impl App {
                 let why = sentence(&format!("{}: {error}", self.name_of_current()));
                 self.state.unanalyzed = Some((shown, Some(why)));
             }
-            Err(WalkError::Fruit(error)) => {
+            Err(AnalyzeError::Fruit(error)) => {
                 set_problem(Some(sentence(&error.reason())));
                 self.forget_analysis();
                 self.leave_subject();
                 self.say(true, sentence_of_file(&error.to_string()));
             }
-            Err(WalkError::Cancelled) => self.state.was_cancelled = true,
+            Err(AnalyzeError::Cancelled) => self.state.was_cancelled = true,
         }
         self.frame_if_new();
     }

@@ -1,7 +1,7 @@
 //! The paper's two experiments on one cloud, side by side: with the peduncle and without it.
 
 use crate::app::App;
-use crate::app::inspector::stages::{Source, Stages, WalkError};
+use crate::app::inspector::stages::{AnalyzeError, FruitStages, Source};
 use crate::evaluate::compared;
 use crate::fruit::Request;
 use crate::method::AxisSource;
@@ -73,17 +73,17 @@ impl App {
 }
 
 fn errors(
-    stages: &mut Stages,
+    stages: &mut FruitStages,
     source: &Source,
     request: &Request,
     watch: &crate::app::workers::JobWatch,
 ) -> Errors {
     let walked = stages
-        .walk(source, request, watch, &|_, _| {})
+        .analyze(source, request, watch, &|_, _| {})
         .map_err(|error| match error {
-            WalkError::Fruit(error) => sentence(&error.reason()),
-            WalkError::Analysis { error, .. } => sentence(&error.to_string()),
-            WalkError::Cancelled => "It was called off.".into(),
+            AnalyzeError::Fruit(error) => sentence(&error.reason()),
+            AnalyzeError::Analysis { error, .. } => sentence(&error.to_string()),
+            AnalyzeError::Cancelled => "It was called off.".into(),
         })?;
     let (references, _) = compared(&walked.fruit, request, &walked.analysis);
     let axis = walked.analysis.axis.as_ref().ok_or("There is no axis.")?;

@@ -236,7 +236,7 @@ impl PeduncleState {
 
 impl super::State {
     /// The cloud that is open, read and analyzed; `None` while another one is still shown.
-    pub fn current_walked(&self) -> Option<&Arc<super::Walked>> {
+    pub fn current_walked(&self) -> Option<&Arc<super::AnalyzedFruit>> {
         let path = self.source()?.path();
         self.walked
             .as_ref()

@@ -16,7 +16,7 @@ use crate::annotate::{Author, CloudAgreement, CloudId, FAR_OFF_DEG};
 use crate::app::inspector::stages::Source;
 use crate::app::workers::Queue;
 use crate::app::workers::{Lane, Repaint};
-use crate::app::{App, PATIENCE, Walked};
+use crate::app::{AnalyzedFruit, App, PATIENCE};
 use crate::evaluate::compared;
 use crate::fruit::Fruit;
 use crate::parallel::Cancelled;
@@ -266,7 +266,7 @@ impl App {
     }
 
     /// The cloud with what annotators say of it now, which may be newer than when it was read.
-    pub(in crate::app) fn with_annotations(&self, mut walked: Walked) -> Walked {
+    pub(in crate::app) fn with_annotations(&self, mut walked: AnalyzedFruit) -> AnalyzedFruit {
         let turned_to = self.annotator.turned_to.as_ref();
         let is_it = turned_to.is_some_and(|(place, _)| {
             place.path == walked.fruit.file.path && place.cloud.sha256 == walked.fruit.file.sha256

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::app::{PlaneChoice, State};
 use crate::geometry::angle_between_lines_rad;
-use crate::method::{Analysis, symmetry_axis};
+use crate::method::Analysis;
 use crate::view::value_color;
 
 /// One candidate plane, as people want to know it.
@@ -121,7 +121,7 @@ impl Planes {
     }
 
     fn new(analysis: &Arc<Analysis>, reference: Option<DVec3>) -> Self {
-        let (ranking, params) = (&analysis.ranking, &analysis.params);
+        let ranking = &analysis.ranking;
         let grid = analysis.planes.grid;
         let mut ranks = vec![None; grid.plane_count()];
         for (place, &index) in ranking.order().iter().enumerate() {
@@ -129,7 +129,7 @@ impl Planes {
         }
         let facts = grid.candidates().enumerate().map(|(index, candidate)| {
             let term = analysis.planes.terms[index];
-            let axis = symmetry_axis(candidate.normal, analysis.center, params.viewpoint).ok();
+            let axis = analysis.axis_of(index).ok().map(|axis| axis.direction);
             let error = axis.zip(reference).map(|(a, r)| angle_between_lines_rad(a, r));
             PlaneFacts {
                 g: candidate.g,
