@@ -7,6 +7,7 @@
 mod examine;
 mod outcome;
 mod report;
+pub mod reproduce;
 mod results;
 mod row;
 mod start;
