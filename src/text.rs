@@ -1,6 +1,6 @@
-//! Sentences of messages.
+//! Messages in prose: sentences made of errors.
 
-/// An error's text as a sentence of its own.
+/// Returns an error's text, which is a clause, as a sentence: with a capital letter and a full stop.
 pub fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     let first: String = letters

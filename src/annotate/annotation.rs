@@ -19,14 +19,19 @@ pub enum Finding {
 /// recorded for good: nudging a computed axis does not make it one set by hand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Method {
     /// Both ends were set by hand.
+    #[cfg_attr(feature = "cli", value(skip))]
     ByHand,
     /// From the peduncle's axis (§ 3.2).
+    #[cfg_attr(feature = "cli", value(name = "peduncle"))]
     FromPeduncle,
     /// From the method's own axis (Eq. 16).
+    #[cfg_attr(feature = "cli", value(name = "computed"))]
     FromComputed,
     /// From another program.
+    #[cfg_attr(feature = "cli", value(skip))]
     Imported,
 }
 

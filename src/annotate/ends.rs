@@ -34,13 +34,16 @@ pub struct Ends {
 
 /// What stays where it is when an axis is turned or lengthened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Pivot {
     /// The middle between the ends.
     #[default]
     Middle,
     /// The peduncle's base.
+    #[cfg_attr(feature = "cli", value(name = "base"))]
     PeduncleBase,
     /// The blossom end.
+    #[cfg_attr(feature = "cli", value(name = "blossom"))]
     BlossomEnd,
 }
 

@@ -2,9 +2,10 @@
 //! is understood in part would lose the rest when it is written again.
 
 use glam::DVec3;
+use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Annotation, CloudId, Confidence, Ends, EndsError, Finding, Judgment, Method, Role, is_rfc3339};
+use super::{Annotation, CloudId, Confidence, Ends, EndsError, Finding, Judgment, Method, Role};
 use crate::geometry::{Unit, angle_between_directions_rad};
 
 /// The name of the format, without its version.
@@ -202,5 +203,53 @@ impl<'de> Deserialize<'de> for Annotation {
             return Err(serde::de::Error::custom("another version of the format"));
         }
         fields.try_into().map_err(serde::de::Error::custom)
+    }
+}
+
+/// Checks that a text is a time in RFC 3339: `2026-03-01T12:00:00Z`, with a fraction or an offset if need be.
+fn is_rfc3339(text: &str) -> bool {
+    // Of the spellings of ISO 8601 that jiff reads, RFC 3339 has the one with a `T` and with seconds.
+    let has = |at: usize, byte| text.as_bytes().get(at) == Some(&byte);
+    has(10, b'T') && has(16, b':') && !text.ends_with(']') && text.parse::<Timestamp>().is_ok()
+}
+
+/// The present time in UTC and to the second, as annotations record it: `2026-03-01T12:00:00Z`.
+pub fn now() -> String {
+    format!("{:.0}", Timestamp::now())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_times_in_rfc_3339_pass_for_times() {
+        let now = now();
+        assert!(now.len() == 20 && now.ends_with('Z'), "{now}");
+        for time in [
+            now.as_str(),
+            "1970-01-01T00:00:00Z",
+            "2000-02-29T00:00:00Z",
+            "2026-03-01T12:00:00.25Z",
+            "2026-03-01T12:00:00-05:30",
+        ] {
+            assert!(is_rfc3339(time), "{time}");
+        }
+        let others = [
+            "",
+            "yesterday",
+            "2026-03-01",
+            "2026-03-01T12:00:00",
+            "2026-03-01 12:00:00Z",
+            "2026-03-01T12:00Z",
+            "2026-03-01T12:00:00.Z",
+            "2026-03-01T12:00:00Z ",
+            "2026-03-01T12:00:00Z[UTC]",
+            "2026-03-01T12:00:0éZ",
+            "2026-02-29T12:00:00Z",
+        ];
+        for other in others {
+            assert!(!is_rfc3339(other), "{other}");
+        }
     }
 }

@@ -6,7 +6,8 @@
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::{Annotation, Author, History, Role};
+use super::{Annotation, Author, Role};
+use crate::undo::History;
 
 /// The name and version of the format.
 const SCHEMA: &str = "axiscope.axis-journal/1";
@@ -72,7 +73,9 @@ pub enum JournalError {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Journal {
     /// The edits, undone and done again as they were.
-    pub history: History,
+    pub history: History<Annotation>,
+    /// Every annotation that there ever was, the oldest first; those that can no longer be redone as well.
+    pub ever: Vec<Annotation>,
     /// How many lines were understood, the first one apart.
     pub deeds: u64,
     /// How many bytes they are. What follows was cut short, and is to be written over.
@@ -129,11 +132,12 @@ pub fn read_journal(bytes: &[u8], cloud_sha256: &str, author: &Author) -> Result
         let history = &mut journal.history;
         let could = match deed {
             Deed::Edit(state) => {
+                journal.ever.push((*state).clone());
                 history.push(*state);
                 true
             }
-            Deed::Undo => history.undo(),
-            Deed::Redo => history.redo(),
+            Deed::Undo => history.undo().is_some(),
+            Deed::Redo => history.redo().is_some(),
         };
         if !could {
             return Err(damaged());
@@ -154,10 +158,7 @@ fn line(content: &impl Serialize) -> Vec<u8> {
 }
 
 fn checksum(bytes: &[u8]) -> String {
-    let sum = Sha256::digest(bytes);
-    let first = sum.iter().take(DIGITS / 2);
-    let number = first.fold(0_u64, |number, &byte| (number << 8) | u64::from(byte));
-    format!("{number:0DIGITS$x}")
+    hex::encode(&Sha256::digest(bytes)[..DIGITS / 2])
 }
 
 /// The JSON of a whole line whose checksum is right.

@@ -10,12 +10,10 @@ mod ends;
 pub mod exchange;
 mod file;
 mod files;
-mod history;
 mod journal;
 mod listing;
 mod slots;
 mod store;
-mod time;
 
 pub use agreement::{
     AnnotatorSummary, CloudAgreement, FAR_OFF_DEG, MeanAxis, Pair, PairSummary, SetAgreement, estimates,
@@ -25,10 +23,8 @@ pub use annotation::{Annotation, CloudId, Confidence, Finding, Judgment, Method}
 pub use author::{Author, NameError, Role, axis_file_of};
 pub use disk::DiskFiles;
 pub use ends::{Ends, EndsError, NUDGES_DEG, Pivot};
-pub use file::{FileError, LONGEST_FILE};
+pub use file::{FileError, LONGEST_FILE, now};
 pub use files::{Files, Notice, StoreError};
-pub use history::History;
 pub use journal::{Deed, Journal, JournalError, deed_line, head_line, read_journal};
 pub use listing::{annotation_paths, read_annotations};
 pub use store::Store;
-pub use time::{is_rfc3339, rfc3339};

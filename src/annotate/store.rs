@@ -9,10 +9,9 @@ use std::path::{Path, PathBuf};
 use super::files::failed;
 use super::journal::{Deed, deed_line, head_line};
 use super::slots::{COPIES, axis_of, choose, find_journal, slot};
-use super::{
-    Annotation, Author, CloudId, Files, History, Judgment, LONGEST_FILE, Method, Notice, StoreError,
-};
+use super::{Annotation, Author, CloudId, Files, Judgment, LONGEST_FILE, Method, Notice, StoreError};
 use crate::geometry::Unit;
+use crate::undo::History;
 
 /// One annotator's axis of one cloud, with its history and its files.
 pub struct Store {
@@ -21,7 +20,9 @@ pub struct Store {
     cloud: CloudId,
     unit: Unit,
     author: Author,
-    history: History,
+    history: History<Annotation>,
+    /// Every annotation that there ever was, the oldest first.
+    ever: Vec<Annotation>,
     deeds: u64,
     journal: PathBuf,
     /// Bytes of the journal that are on the disk.
@@ -68,6 +69,7 @@ impl Store {
             unit,
             author,
             history: read.history,
+            ever: read.ever,
             deeds: read.deeds,
             journal,
             journal_length: read.length,
@@ -100,7 +102,7 @@ impl Store {
     }
 
     /// What can be undone and done again.
-    pub fn history(&self) -> &History {
+    pub fn history(&self) -> &History<Annotation> {
         &self.history
     }
 
@@ -130,7 +132,7 @@ impl Store {
         &self.notices
     }
 
-    /// A new state. `now` is the time (RFC 3339, as [`super::rfc3339`] gives it). `Ok` says that it is on
+    /// A new state. `now` is the time (RFC 3339, as [`super::now`] gives it). `Ok` says that it is on
     /// the disk.
     ///
     /// # Errors
@@ -138,9 +140,9 @@ impl Store {
     pub fn edit(&mut self, mut judgment: Judgment, now: &str) -> Result<(), StoreError> {
         self.look_again();
         // What was seen once cannot be unseen: undone edits count.
-        let mut before = self.history.ever().iter();
+        let mut before = self.ever.iter();
         judgment.blind &= judgment.method == Method::ByHand && before.all(|state| state.judgment.blind);
-        let created = self.history.ever().first().map(|first| first.created.clone());
+        let created = self.ever.first().map(|first| first.created.clone());
         let state = Annotation {
             cloud: self.cloud.clone(),
             unit: self.unit,
@@ -161,7 +163,7 @@ impl Store {
     /// Where that is not on the disk, as for [`Store::edit`].
     pub fn undo(&mut self, now: &str) -> Result<bool, StoreError> {
         self.look_again();
-        let could = self.history.undo();
+        let could = self.history.undo().is_some();
         if could {
             self.journal_deed(Deed::Undo, now);
         }
@@ -174,7 +176,7 @@ impl Store {
     /// Where that is not on the disk, as for [`Store::edit`].
     pub fn redo(&mut self, now: &str) -> Result<bool, StoreError> {
         self.look_again();
-        let could = self.history.redo();
+        let could = self.history.redo().is_some();
         if could {
             self.journal_deed(Deed::Redo, now);
         }
@@ -216,6 +218,7 @@ impl Store {
     }
 
     fn push(&mut self, state: Annotation, now: &str) {
+        self.ever.push(state.clone());
         self.history.push(state.clone());
         self.journal_deed(Deed::Edit(Box::new(state)), now);
     }
@@ -228,7 +231,7 @@ impl Store {
     /// Another program's state of the axis file becomes the newest edit, unless it was ours once: then
     /// the program died before it had replaced the file.
     fn take_in(&mut self, found: Annotation) {
-        if !self.history.ever().contains(&found) {
+        if !self.ever.contains(&found) {
             let when = found.modified.clone();
             self.push(found, &when);
             self.notices.push(Notice::TakenIn(self.axis.clone()));

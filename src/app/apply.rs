@@ -2,22 +2,22 @@
 
 use std::path::PathBuf;
 
-use super::history::History;
-use super::state::{Command, PlaneChoice, Settings, Tool};
-use super::{App, PickQuestion};
+use super::state::{Command, PlaneChoice, Tool};
+use super::{App, PickQuestion, Step};
 use crate::app::inspector::navigate::{framed_camera, preset_camera, projected};
 use crate::app::inspector::stages::{AnalyzedFruit, Source};
-use crate::app::true_axes::AnnotateCommand;
+use crate::app::true_axes::TrueAxesCommand;
 use crate::fruit::Request;
 use crate::geometry::Unit;
 use crate::method::{CenterMethod, Params, Preset};
+use crate::undo::History;
 use crate::view::ViewPreset;
 use crate::view::{PictureSettings, encode_picture};
 
 impl App {
     /// Does what a panel asks for.
     pub fn apply(&mut self, command: Command) {
-        if self.state.annotating.is_blind && command.reveals() {
+        if self.state.true_axes.is_blind && command.reveals() {
             self.say(false, "Blind mode hides what is computed.".into());
             return;
         }
@@ -33,26 +33,15 @@ impl App {
             Command::Go(by) => self.go(by),
             Command::Close => self.close(),
             Command::Reload => {
-                self.discard.take(std::mem::take(&mut self.stages));
+                self.pool.discard(Some(std::mem::take(&mut self.stages)));
                 self.turn += 1;
             }
 
             Command::Set { request, gesture } => self.set(*request, gesture),
-            Command::EndGesture => {
-                self.history.end_gesture();
-                self.end_typing();
-            }
+            Command::EndGesture => self.undo.end_gesture(),
             Command::UsePreset(preset) => self.use_preset(preset),
-            Command::Undo => {
-                if !self.undo_tag() {
-                    self.travel(History::undo);
-                }
-            }
-            Command::Redo => {
-                if !self.redo_tag() {
-                    self.travel(History::redo);
-                }
-            }
+            Command::Undo => self.travel(History::undo),
+            Command::Redo => self.travel(History::redo),
             Command::Cancel => {
                 if self.analysis.progress().is_some() {
                     self.analysis.cancel();
@@ -62,7 +51,7 @@ impl App {
             Command::Resume => self.asked = None,
             Command::Compare(truth) => {
                 self.state.truth = truth;
-                self.state.annotating.compared = None;
+                self.state.true_axes.compared = None;
             }
 
             Command::LookAt(plane) => self.look_at(plane),
@@ -103,8 +92,8 @@ impl App {
             Command::Peduncle(command) => self.apply_peduncle(command),
             Command::Use(tool) => {
                 // One thing at a time has the left button.
-                if tool != Tool::Navigate && self.state.annotating.is_editing {
-                    self.annotate(AnnotateCommand::Edit(false));
+                if tool != Tool::Navigate && self.state.true_axes.is_editing {
+                    self.annotate(TrueAxesCommand::Edit(false));
                 }
                 self.state.tool = tool;
             }
@@ -114,8 +103,8 @@ impl App {
                 self.set(request, Some("center"));
             }
 
-            Command::Folder(command) => self.apply_folder(command),
-            Command::Annotate(command) => self.annotate(command),
+            Command::Many(command) => self.apply_folder(command),
+            Command::TrueAxes(command) => self.annotate(command),
 
             Command::Scale(scale) => self.state.interface_scale = scale.clamp(0.5, 3.0),
             Command::Dismiss(id) => self.state.messages.retain(|message| message.id != id),
@@ -131,8 +120,8 @@ impl App {
             .filter_map(|path| std::path::absolute(path).ok())
             .collect();
         self.list_changed(!folders.is_empty());
-        self.state.folder.folders.retain(|known| !folders.contains(known));
-        self.state.folder.folders.extend(folders);
+        self.state.many.folders.retain(|known| !folders.contains(known));
+        self.state.many.folders.extend(folders);
         for problem in opened.problems {
             self.say(true, problem);
         }
@@ -177,7 +166,7 @@ impl App {
             let path = std::path::absolute(closed.source.path());
             path.is_ok_and(|path| path.parent() == Some(folder))
         };
-        self.state.folder.folders.retain(|folder| !is_of(folder));
+        self.state.many.folders.retain(|folder| !is_of(folder));
         self.list_changed(false);
         self.state.current = None;
         self.leave_peduncle();
@@ -196,7 +185,7 @@ impl App {
         if request == self.state.settings.request {
             return;
         }
-        self.history.remember(self.state.settings.clone(), gesture);
+        self.remember_settings(gesture);
         self.state.settings.request = request;
     }
 
@@ -210,10 +199,25 @@ impl App {
         self.set(request, None);
     }
 
-    fn travel(&mut self, way: fn(&mut History<Settings>, Settings) -> Option<Settings>) {
-        if let Some(settings) = way(&mut self.history, self.state.settings.clone()) {
-            self.state.settings = settings;
-            self.state.previewed = None;
+    /// The settings are about to change.
+    fn remember_settings(&mut self, gesture: Option<&str>) {
+        let before = Box::new(self.state.settings.clone());
+        self.undo.push_of_gesture(Step::Settings(before), gesture);
+    }
+
+    /// Undoes or redoes a step: its value and the present one change places.
+    fn travel(&mut self, way: fn(&mut History<Step>) -> Option<&mut Step>) {
+        match way(&mut self.undo) {
+            Some(Step::Settings(settings)) => {
+                std::mem::swap(&mut **settings, &mut self.state.settings);
+                self.state.previewed = None;
+            }
+            Some(Step::Tags { path, tagged }) => {
+                let now = self.many.tagged(&self.state.many.rows, path);
+                let (path, tagged) = (path.clone(), std::mem::replace(tagged, now));
+                self.set_tagged(path, tagged);
+            }
+            None => {}
         }
     }
 
@@ -224,7 +228,7 @@ impl App {
         }
         // Scrubbing through a hundred planes is one step back.
         let gesture = (plane != PlaneChoice::Best).then_some("plane");
-        self.history.remember(self.state.settings.clone(), gesture);
+        self.remember_settings(gesture);
         self.state.settings.plane = plane;
     }
 
@@ -305,7 +309,7 @@ impl App {
     fn pivot(&mut self) {
         let picked = self.state.picked.zip(self.state.shown());
         let place = picked.map(|(i, shown)| shown.positions[i]);
-        let is_blind = self.state.annotating.is_blind;
+        let is_blind = self.state.true_axes.is_blind;
         let center = self.state.analysis().map(|a| a.center).filter(|_| !is_blind);
         if let Some(pivot) = place.or(center) {
             self.state.camera.set_pivot(pivot);

@@ -10,7 +10,6 @@
 
 mod apply;
 mod files;
-mod history;
 pub mod inspector;
 pub mod many;
 pub mod peduncle;
@@ -20,38 +19,37 @@ mod state;
 pub mod true_axes;
 pub mod workers;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
 use glam::DVec2;
 
+use crate::evaluate::Tagged;
 use crate::geometry::Extent;
 use crate::method::{AxisEstimate, PlaneDetail};
 use crate::parallel::Cancelled;
 use crate::render::{Camera, Viewport};
 use crate::text::sentence;
-use crate::view::ShownPoints;
+use crate::undo::History;
+use crate::view::{ShownPoints, Style};
 
-use history::History;
 use inspector::details::Details;
-use inspector::look::{Look, Style};
+use inspector::look::Look;
 use inspector::stages::{AnalyzeError, FruitStages};
-use many::{Folder, FolderState};
-use workers::{Discard, Lane, Repaint};
+use many::{Many, ManyState};
+use workers::{Lane, Pool, Repaint};
 
-pub use history::History as UndoHistory;
-pub use inspector::command_line::{analysis_options, command_line, quoted};
-#[cfg(feature = "window")]
-pub use inspector::drawing::{Drawing, DrawingError, draw as draw_cloud};
+pub use inspector::command_line::{command_line, quoted};
+pub use inspector::image::page;
 pub use inspector::navigate::{default_camera, dragged};
 pub use inspector::stages::{AnalyzedFruit, Source};
-pub use inspector::written::Written;
 pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};
 pub use state::{Command, Entry, Message, PlaneChoice, Settings, State, Tool, TruthChoice};
-pub use true_axes::{AnnotateCommand, Annotating};
+pub use true_axes::{TrueAxesCommand, TrueAxesState};
 
 /// A small cloud's results are waited for, so that they are in the frame that asked for them.
 const PATIENCE: Duration = Duration::from_millis(7);
@@ -62,6 +60,17 @@ const PLANES_PER_SECOND: f64 = 6.0;
 type Arrival = (Source, Arc<crate::fruit::Fruit>, Arc<ShownPoints>);
 
 type AnalysisResult = (FruitStages, Result<AnalyzedFruit, AnalyzeError>);
+
+/// A step that undo takes back: the value that it replaced, or, once it is undone, the value that it made.
+#[derive(Debug, Clone)]
+enum Step {
+    Settings(Box<Settings>),
+    /// The tags and the note of a cloud.
+    Tags {
+        path: PathBuf,
+        tagged: Tagged,
+    },
+}
 
 /// What was last asked of the analysis worker.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,14 +103,14 @@ struct PickQuestion {
 /// The program.
 pub struct App {
     state: State,
-    history: History<Settings>,
+    undo: History<Step>,
     stages: FruitStages,
     details: Details,
     analysis: Lane<AnalysisResult>,
     looks: Lane<Result<Look, Cancelled>>,
     picks: Lane<(PickQuestion, Option<usize>)>,
     images: Lane<Result<String, String>>,
-    discard: Discard,
+    pool: Pool,
     peduncle: peduncle::Work,
     asked: Option<Asked>,
     seen: Option<Seen>,
@@ -119,7 +128,7 @@ pub struct App {
     repaint: Repaint,
     /// The last click that was not answered yet.
     pending_click: Option<PickQuestion>,
-    folder: Folder,
+    many: Many,
     annotator: true_axes::Annotator,
 }
 
@@ -130,22 +139,23 @@ impl App {
     /// # Errors
     /// Where the operating system starts no thread.
     pub fn new(session: Session, repaint: &Repaint) -> std::io::Result<Self> {
+        let pool = &Pool::new(repaint)?;
         let mut state = State::new(session.settings, session.style.into());
-        state.annotating = true_axes::Annotating::new(session.annotating);
+        state.true_axes = TrueAxesState::new(session.true_axes);
         state.recent = session.recent;
         state.interface_scale = session.interface_scale.clamp(0.5, 3.0);
-        state.folder = FolderState::new(session.folder);
+        state.many = ManyState::new(session.many);
         Ok(Self {
             state,
-            history: History::default(),
+            undo: History::default(),
             stages: FruitStages::default(),
             details: Details::default(),
-            analysis: Lane::new("analysis", repaint.clone())?,
-            looks: Lane::new("look", repaint.clone())?,
-            picks: Lane::new("pick", repaint.clone())?,
-            images: Lane::new("image", repaint.clone())?,
-            discard: Discard::new()?,
-            peduncle: peduncle::Work::new(repaint)?,
+            analysis: Lane::new(pool),
+            looks: Lane::new(pool),
+            picks: Lane::new(pool),
+            images: Lane::new(pool),
+            pool: pool.clone(),
+            peduncle: peduncle::Work::new(pool),
             asked: None,
             seen: None,
             shown_generation: 0,
@@ -157,8 +167,8 @@ impl App {
             arrivals: channel(),
             repaint: repaint.clone(),
             pending_click: None,
-            folder: Folder::new(repaint)?,
-            annotator: true_axes::Annotator::new(repaint)?,
+            many: Many::new(pool),
+            annotator: true_axes::Annotator::new(pool),
         })
     }
 
@@ -176,7 +186,7 @@ impl App {
 
     /// Whether the workers have anything to do, or to hand out.
     pub fn is_busy(&self) -> bool {
-        self.is_current_busy() || self.folder.is_busy()
+        self.is_current_busy() || self.many.is_busy()
     }
 
     /// Whether somebody waits for what they are doing: not for what is done for all clouds in the background.
@@ -204,7 +214,7 @@ impl App {
         self.stand_aside(self.analysis.is_busy() || self.looks.is_busy());
         self.update_edit_scenes();
         self.ask_for_pick();
-        if let Some((_, result)) = self.images.take() {
+        if let Some(result) = self.images.take() {
             let (is_error, text) = match result {
                 Ok(Ok(done)) => (false, done),
                 Ok(Err(problem)) => (true, problem),
@@ -213,8 +223,8 @@ impl App {
             self.say(is_error, text);
         }
         self.state.progress = self.analysis.progress();
-        self.state.can_undo = self.history.can_undo() || self.can_undo_tag();
-        self.state.can_redo = self.history.can_redo() || self.can_redo_tag();
+        self.state.can_undo = self.undo.undo_steps() > 0;
+        self.state.can_redo = self.undo.redo_steps() > 0;
     }
 
     fn say(&mut self, is_error: bool, text: String) {

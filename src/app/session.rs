@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::state::{Settings, State};
-use crate::app::inspector::look::Style;
 use crate::app::inspector::stages::Source;
-use crate::app::true_axes::KeptAnnotating;
+use crate::app::true_axes::KeptTrueAxes;
+use crate::view::Style;
 use crate::view::{Coloring, Overlays, Theme};
 
 /// Settings, what was open, and how it was shown.
@@ -27,13 +27,15 @@ pub struct Session {
     /// Which of them was shown.
     pub current: Option<usize>,
     /// How the table of clouds was sorted and filtered.
-    pub folder: crate::app::many::KeptFolder,
+    #[serde(rename = "folder")]
+    pub many: crate::app::many::KeptMany,
     /// How large the interface was.
     pub interface_scale: f32,
     /// The arrangement of the panels, as the window wrote it.
     pub layout: Option<String>,
     /// The annotator's name and choices.
-    pub annotating: KeptAnnotating,
+    #[serde(rename = "annotating")]
+    pub true_axes: KeptTrueAxes,
     /// The window's inner size in logical pixels.
     pub window_size: Option<[f32; 2]>,
 }
@@ -133,10 +135,10 @@ impl Session {
             recent: state.recent.clone(),
             current: files.iter().position(|(i, _)| Some(*i) == state.current),
             open: files.into_iter().map(|(_, path)| path).collect(),
-            folder: state.folder.kept(),
+            many: state.many.kept(),
             interface_scale: state.interface_scale,
             layout: None,
-            annotating: state.annotating.kept(),
+            true_axes: state.true_axes.kept(),
             window_size: None,
         }
     }

@@ -9,25 +9,24 @@ use serde::{Deserialize, Serialize};
 
 use super::peduncle::{PeduncleCommand, PeduncleState};
 use super::samples::Sample;
-use crate::app::inspector::look::{Look, Style};
+use crate::app::inspector::look::Look;
 use crate::app::inspector::stages::{AnalyzedFruit, Source};
-use crate::app::many::{FolderCommand, FolderState};
-use crate::app::true_axes::{AnnotateCommand, Annotating, KeptAnnotating};
+use crate::app::many::{ManyCommand, ManyState};
+use crate::app::true_axes::{KeptTrueAxes, TrueAxesCommand, TrueAxesState};
 use crate::app::workers::Progress;
 use crate::evaluate::reference_of;
-use crate::fruit::PeduncleChoice;
 use crate::fruit::Request;
-use crate::geometry::Unit;
 use crate::method::{Analysis, AxisEstimate, Params, PlaneDetail, PointDetail, Preset};
 use crate::render::{Camera, Projection, Viewport};
-use crate::view::{ShownPoints, Theme, ViewPreset};
+use crate::view::{ShownPoints, Style, Theme, ViewPreset};
 
 pub use crate::evaluate::TruthChoice;
 
 /// Which candidate plane is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum PlaneChoice {
     /// The one with the lowest score, whichever it is.
+    #[default]
     Best,
     /// The one at step g, h of the grid, each from 1.
     At {
@@ -39,27 +38,12 @@ pub enum PlaneChoice {
 }
 
 /// What undo and redo bring back.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// How clouds are analyzed.
     pub request: Request,
     /// The plane that is looked at.
     pub plane: PlaneChoice,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            request: Request {
-                unit: None,
-                peduncle: PeduncleChoice::Auto,
-                without_peduncle: false,
-                normals: None,
-                params: Params::new(Preset::AsIntended, Unit::Centimeter),
-            },
-            plane: PlaneChoice::Best,
-        }
-    }
 }
 
 /// One cloud of the list.
@@ -164,9 +148,9 @@ pub struct State {
     /// How large the interface is; 1 as the screen asks for.
     pub interface_scale: f32,
     /// The open clouds as a set.
-    pub folder: FolderState,
+    pub many: ManyState,
     /// Axes set by hand.
-    pub annotating: Annotating,
+    pub true_axes: TrueAxesState,
 }
 
 impl State {
@@ -202,8 +186,8 @@ impl State {
             messages: Vec::new(),
             is_software: false,
             interface_scale: 1.0,
-            folder: FolderState::new(crate::app::many::KeptFolder::default()),
-            annotating: Annotating::new(KeptAnnotating::default()),
+            many: ManyState::new(crate::app::many::KeptMany::default()),
+            true_axes: TrueAxesState::new(KeptTrueAxes::default()),
         }
     }
 
@@ -256,7 +240,7 @@ impl State {
 
     /// The axis that errors are measured against: the chosen one, or else the first there is.
     pub fn reference(&self) -> Option<&AxisEstimate> {
-        let chosen = self.annotating.compared.as_ref();
+        let chosen = self.true_axes.compared.as_ref();
         let chosen = chosen.and_then(|source| self.references.iter().find(|axis| axis.source == *source));
         chosen
             .or_else(|| reference_of(&self.references, self.truth))
@@ -360,10 +344,10 @@ pub enum Command {
     Peduncle(PeduncleCommand),
 
     /// Something of the set of open clouds.
-    Folder(FolderCommand),
+    Many(ManyCommand),
 
     /// Something about axes set by hand.
-    Annotate(AnnotateCommand),
+    TrueAxes(TrueAxesCommand),
 
     /// Make the interface larger or smaller.
     Scale(f32),

@@ -13,9 +13,9 @@ use super::{
 /// A named series: a value for each category.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BarSeries {
-    /// What the legend calls it.
+    /// Its name in the legend.
     pub name: String,
-    /// Its values in the order of the categories; where there is none a × is drawn.
+    /// Its values in the order of the categories; a missing one is drawn as a ×.
     pub values: Vec<Option<f64>>,
 }
 

@@ -1,4 +1,7 @@
-//! The sheet that a figure is drawn on: lines, areas and texts in units of the figure.
+//! The canvas of a figure: lines, areas and texts in units of the figure.
+//!
+//! Figures use kuva's axes, ticks, colors and SVG, but not its plots: those draw a missing bar as one of height zero and a
+//! missing cell in some color, and write the label of a guide over the data.
 
 use kuva::{
     backend::svg::SvgBackend,
@@ -10,7 +13,7 @@ use kuva::{
 
 use super::{style, text};
 
-/// On which side of its position a text lies.
+/// The alignment of a text with its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Align {
     Start,
@@ -53,7 +56,7 @@ impl Area {
     }
 }
 
-/// A white sheet and what was drawn on it so far.
+/// A white sheet with the shapes drawn so far.
 pub(super) struct Canvas {
     pub(super) scene: Scene,
     clips: usize,

@@ -27,11 +27,11 @@ const TICK_GAP: f64 = 9.0;
 /// The longest name beside a row.
 const ROW_NAME_ROOM: f64 = 160.0;
 
-/// What stands under the x axis.
+/// The texts under the x axis.
 pub(super) enum Under<'a> {
     /// Numbers at ticks.
     Numbers,
-    /// Nothing: the panel below has the same axis.
+    /// No texts: the panel below has the same axis.
     Nothing,
     /// A text for each category; the categories lie at 1, 2, 3 …
     Categories(&'a [String]),
@@ -51,7 +51,7 @@ pub(super) struct Frame<'a> {
     pub(super) beside: f64,
 }
 
-/// Where values lie on the canvas.
+/// The mapping of values to the canvas.
 pub(super) struct Plot {
     pub(super) area: Area,
     computed: ComputedLayout,
@@ -108,7 +108,7 @@ impl Frame<'_> {
         }
     }
 
-    /// Draws grid, axes, labels and guides into the sides given, and says where values lie.
+    /// Draws grid, axes, labels and guides into an area, and returns the mapping of values.
     pub(super) fn draw(&self, canvas: &mut Canvas, area: Area) -> Result<Plot, FigureError> {
         if area.height() < 40.0 || area.width() < 80.0 {
             return Err(FigureError::NoRoom);
@@ -191,7 +191,7 @@ impl Frame<'_> {
         canvas.turned_text(&label, position, LABEL_SIZE, Align::Middle, INK, Some(-90.0));
     }
 
-    /// Draws the guides across the plot. Each chart says when: over its bars, under its lines.
+    /// Draws the guides across the plot. Each chart calls it in its own turn: over bars, under lines.
     pub(super) fn draw_guides(&self, canvas: &mut Canvas, plot: &Plot) {
         for (index, guide) in self.shown_guides() {
             let y = plot.y(guide.value);
@@ -211,7 +211,7 @@ impl Frame<'_> {
             .filter(move |(_, guide)| range.contains(&guide.value))
     }
 
-    /// Writes what each guide says to the right of its end, moved where texts would meet.
+    /// Writes the label of each guide to the right of its end, moved so that texts do not meet.
     fn guide_texts(&self, canvas: &mut Canvas, plot: &Plot) {
         let Area {
             right, top, bottom, ..
@@ -275,7 +275,7 @@ fn moved_apart(wanted: &[f64], heights: &[f64], low: f64, high: f64) -> Vec<f64>
     tops
 }
 
-/// How the names of categories stand under their axis.
+/// The arrangement of the names of categories under their axis.
 struct CategoryTexts {
     turned: bool,
     height: f64,

@@ -18,7 +18,7 @@ use super::{
 pub struct Heatmap {
     /// Title and axes.
     pub labels: Labels,
-    /// What the colors show, with its unit.
+    /// The quantity that the colors show, with its unit.
     pub value_label: String,
     /// The settings along x, from left to right.
     pub columns: Vec<String>,

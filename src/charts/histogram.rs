@@ -1,4 +1,4 @@
-//! How often values fall into steps of equal width.
+//! Histograms with steps of equal width.
 
 use kuva::render::render_utils::compute_tick_step;
 

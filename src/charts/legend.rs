@@ -1,4 +1,4 @@
-//! The head of a figure: its title and, in rows below it, what each color means.
+//! The head of a figure: its title and, in rows below it, the legend.
 
 use super::{
     canvas::{Align, Area, Canvas},
@@ -43,7 +43,7 @@ const SIGN_GAP: f64 = 9.0;
 const ENTRY_GAP: f64 = 30.0;
 const ROW_HEIGHT: f64 = 27.0;
 
-/// Draws the head and says where the room below it begins.
+/// Draws the head and returns the start of the room below it.
 pub(super) fn draw_head(canvas: &mut Canvas, title: &str, entries: &[Entry]) -> f64 {
     let room = WIDTH - 2.0 * PAGE_MARGIN;
     let mut y = PAGE_MARGIN;

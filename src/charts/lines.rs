@@ -15,7 +15,7 @@ use super::{
 pub struct LinePoint {
     /// The position along the x axis.
     pub x: f64,
-    /// The value there; the line is broken where there is none.
+    /// The value there; a missing one breaks the line.
     pub y: Option<f64>,
     /// Half the height of the band, a standard deviation say.
     pub spread: Option<f64>,
@@ -24,7 +24,7 @@ pub struct LinePoint {
 /// A named series. Its points are drawn in the order given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineSeries {
-    /// What the legend calls it.
+    /// Its name in the legend.
     pub name: String,
     /// Its positions, in rising x.
     pub points: Vec<LinePoint>,
@@ -37,7 +37,7 @@ pub struct LinePanel {
     pub series: Vec<LineSeries>,
     /// Values to compare them with.
     pub guides: Vec<Guide>,
-    /// Where the y axis starts and ends; what lies beyond is cut off. `None` takes in everything.
+    /// The range of the y axis, beyond which lines are cut off; `None` holds all values.
     pub y_range: Option<(f64, f64)>,
 }
 
@@ -66,7 +66,7 @@ impl LineChart {
         }
     }
 
-    /// The same chart with the series that lie far above the others in a panel of their own, where there are such.
+    /// The chart with a separate panel for the series that lie far above the others, if there are any.
     ///
     /// Far is a factor of two or more between the medians of two series that follow each other in height. A guide goes
     /// to the panel whose series are nearer. Charts that have several panels already stay as they are.
@@ -174,7 +174,7 @@ impl LinePanel {
         Scale::holding(values.chain(guides), Zero::WhenNear, tick_count)?.ok_or(FigureError::Empty)
     }
 
-    /// Where bands are cut off: below zero there is nothing to show of a quantity that is never negative.
+    /// The value below which bands are cut off: zero for a quantity that is never negative.
     fn floor(&self) -> f64 {
         let never_negative = self
             .series

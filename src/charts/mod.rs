@@ -26,7 +26,7 @@ pub use style::{HEIGHT, WIDTH};
 
 use thiserror::Error;
 
-/// Why a figure could not be drawn.
+/// The reason why a figure could not be drawn.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FigureError {
@@ -60,12 +60,12 @@ pub enum FigureError {
     Raster(String),
 }
 
-/// A horizontal line at a value to compare with; its label stands beside the plot, where no data can be.
+/// A horizontal line at a value to compare with. Its label is beside the plot, clear of all data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guide {
-    /// Where the line lies, in the unit of the y axis.
+    /// The value of the line, in the unit of the y axis.
     pub value: f64,
-    /// What it says, its number and unit among it.
+    /// Its text, with number and unit.
     pub label: String,
 }
 
@@ -84,9 +84,9 @@ impl Guide {
 pub struct Labels {
     /// The title, in sentence case.
     pub title: String,
-    /// What the x axis shows.
+    /// The quantity along the x axis.
     pub x: String,
-    /// What the y axis shows.
+    /// The quantity along the y axis.
     pub y: String,
 }
 
@@ -108,7 +108,7 @@ pub enum Figure {
     Lines(LineChart),
     /// One or more bars per category.
     Bars(BarChart),
-    /// How often values fall where.
+    /// The distribution of values.
     Histogram(Histogram),
     /// Points with two coordinates.
     Scatter(Scatter),
@@ -120,7 +120,8 @@ impl Figure {
     /// The figure as an SVG document of [`WIDTH`] × [`HEIGHT`] units. Its texts stay texts.
     ///
     /// # Errors
-    /// Where nothing can be drawn: no finite value, lists of different lengths, values beyond any axis, too many series.
+    /// Returns an error if the figure holds no finite value, lists of different lengths, values beyond any axis, or too
+    /// many series.
     pub fn svg(&self) -> Result<String, FigureError> {
         let canvas = match self {
             Self::Lines(chart) => chart.draw(),
@@ -135,7 +136,7 @@ impl Figure {
     /// The figure as a PNG of `scale` × [`WIDTH`] by `scale` × [`HEIGHT`] pixels; 0.5 makes a thumbnail, 2 suits print.
     ///
     /// # Errors
-    /// As [`svg`](Self::svg), and where the scale gives no picture.
+    /// Returns the errors of [`svg`](Self::svg), and an error if the scale gives no picture.
     pub fn png(&self, scale: f64) -> Result<Vec<u8>, FigureError> {
         raster::png_from_svg(&self.svg()?, scale)
     }

@@ -1,4 +1,4 @@
-//! Ranges of axes, and how their numbers are written.
+//! Ranges of axes and the format of their numbers.
 
 use kuva::render::render_utils::{compute_tick_step, generate_ticks_with_step};
 
@@ -9,7 +9,7 @@ const LARGEST: f64 = 1e100;
 /// The axis code treats spans below the epsilon of f64 as empty; this keeps well above it.
 const SMALLEST_SPAN: f64 = 1e-14;
 
-/// An axis: where it starts and ends, and how far its ticks lie apart.
+/// The range of an axis and the distance between its ticks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     pub(super) low: f64,
@@ -17,19 +17,19 @@ pub(super) struct Scale {
     pub(super) step: f64,
 }
 
-/// Whether an axis takes in zero.
+/// Whether the range of an axis is extended to zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Zero {
     /// Always: heights of bars are compared from there.
     Always,
-    /// Where positive values reach down to less than half of the largest: their ratios can then be read from heights.
+    /// If the smallest value is positive and less than half of the largest: then heights show their ratios.
     WhenNear,
-    /// Only where values lie on both sides of it.
+    /// Never: it holds zero only between values of both signs.
     Never,
 }
 
 impl Scale {
-    /// A scale of about `ticks` steps that holds every value, from tick to tick; `None` where there is no value.
+    /// A scale of about `ticks` steps that holds every value, from tick to tick; `None` if there is no value.
     pub(super) fn holding(
         values: impl IntoIterator<Item = f64>,
         zero: Zero,
@@ -55,7 +55,7 @@ impl Scale {
         }))
     }
 
-    /// A scale that ends just beyond the first and the last value, whether there is a tick or not.
+    /// A scale that ends just beyond the first and the last value, with or without a tick there.
     pub(super) fn around(
         values: impl IntoIterator<Item = f64>,
         ticks: usize,

@@ -12,7 +12,7 @@ use super::{
 /// A named set of points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScatterSeries {
-    /// What the legend calls it.
+    /// Its name in the legend.
     pub name: String,
     /// The points (x, y); those that are not finite are left out.
     pub points: Vec<(f64, f64)>,

@@ -1,4 +1,4 @@
-//! How wide texts are, and where they break.
+//! Widths and line breaks of texts.
 
 use std::sync::LazyLock;
 
@@ -7,7 +7,7 @@ use ttf_parser::Face;
 /// `DejaVu Sans`: it has the degree sign, Greek, subscripts and the arrows that captions use.
 pub(super) const FONT: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
 
-/// What an SVG asks for. Verdana has the same widths, the others are narrower: what fits here fits there.
+/// The fonts that an SVG asks for. Verdana has the same widths and the others are narrower, so that all texts fit.
 pub(super) const FONT_FAMILY: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
 
 static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(FONT, 0).ok());

@@ -25,7 +25,7 @@ pub(super) struct Analyze {
     cloud: PathBuf,
     #[command(flatten)]
     analysis: AnalysisOptions,
-    /// How to print the result
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
@@ -42,7 +42,7 @@ pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
     let started = Instant::now();
     let request = args.analysis.request();
     let clock = StageClock::new();
-    let fruit = Fruit::read_watched(&args.cloud, request.unit, &request.peduncle, &clock)?;
+    let fruit = Fruit::read_watched(&args.cloud, &request, &clock)?;
     let read = milliseconds_since(started);
     let examined = examine(fruit, &request, &clock);
     let times = clock.finish();

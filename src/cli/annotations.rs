@@ -7,37 +7,37 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use axiscope::annotate::exchange::{ImportedRow, read_table, write_table};
 use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement};
-use axiscope::annotate::{annotation_paths, read_annotations};
+use axiscope::annotate::{annotation_paths, now, read_annotations};
 use axiscope::evaluate::Row;
-use axiscope::fruit::{Fruit, PeduncleChoice, read_cloud};
+use axiscope::fruit::{Fruit, PeduncleChoice, Request, read_cloud};
+use axiscope::geometry::Unit;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use super::annotate::open;
 use super::evaluate::clouds_in;
-use super::now;
-use super::options::{UnitOption, positive};
+use super::options::{OrAuto, positive, unit_or_auto};
 
 #[derive(Debug, Args)]
 pub(super) struct Annotations {
     /// The folder with the clouds (PLY) and the axis files beside them
     folder: PathBuf,
-    /// How to print them
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-    /// From how many degrees on an annotator is far off
+    /// Angle in degrees beyond which an annotator counts as far off
     #[arg(long, value_name = "DEG", default_value_t = FAR_OFF_DEG, value_parser = positive)]
     far_off: f64,
     /// Also write every axis as CSV
     #[arg(long, value_name = "FILE")]
     export: Option<PathBuf>,
-    /// First take axes from CSV with an export's columns, at least the file, the annotator and both ends; each
-    /// becomes an edit that can be undone
+    /// First import axes from CSV with the columns of an export, at least the file, the annotator and both ends;
+    /// each becomes an edit that can be undone
     #[arg(long, value_name = "FILE")]
     import: Option<PathBuf>,
     /// Unit of the clouds' coordinates
-    #[arg(long, value_enum, default_value = "auto")]
-    unit: UnitOption,
+    #[arg(long, default_value = "auto", value_parser = unit_or_auto())]
+    unit: OrAuto<Unit>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
@@ -148,7 +148,12 @@ fn prepare<'a>(
         .iter()
         .find(|path| Row::name_in(&args.folder, path) == row.file)
         .with_context(|| format!("there is no cloud {:?} in {}", row.file, args.folder.display()))?;
-    let fruit = Fruit::read(path, args.unit.unit(), &PeduncleChoice::None)?;
+    let request = Request {
+        unit: args.unit,
+        peduncle: PeduncleChoice::None,
+        ..Request::default()
+    };
+    let fruit = Fruit::read(path, &request)?;
     anyhow::ensure!(
         row.sha256.as_ref().is_none_or(|hash| *hash == fruit.file.sha256),
         "{} is not the cloud that this axis was set for",

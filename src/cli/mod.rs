@@ -26,11 +26,11 @@ use clap::{CommandFactory, Parser, Subcommand};
 #[derive(Debug, Parser)]
 #[command(name = "axiscope", version, max_term_width = 100)]
 struct Cli {
-    /// Point clouds (PLY) or folders to open in the window; a sample where nothing is named
+    /// Point clouds (PLY) or folders to open in the window [default: a bundled sample]
     #[cfg(feature = "window")]
     #[arg(value_name = "FILE|FOLDER")]
     paths: Vec<std::path::PathBuf>,
-    /// Worker threads [default: all cores]; results do not depend on it
+    /// Number of worker threads, which does not change results [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     #[command(subcommand)]
@@ -46,27 +46,27 @@ enum Command {
     Render(Box<render::Render>),
     /// Make clouds whose axis is known
     Simulate(simulate::Simulate),
-    /// Compare a folder of clouds with their references: a table, figures, the worst first
+    /// Compare each cloud of a folder with its reference: a table, figures, and a report with the worst first
     Evaluate(Box<evaluate::Evaluate>),
     /// Set the true axis of one cloud by hand
     Annotate(Box<annotate::Annotate>),
-    /// List a folder's axes set by hand, and how far the annotators agree
+    /// List the axes set by hand in a folder, and the agreement between annotators
     Annotations(annotations::Annotations),
-    /// Run the paper's experiments and set them beside the paper's figures
+    /// Repeat the paper's experiments and compare the results with the paper's
     Reproduce(reproduce::Reproduce),
-    /// Time each stage here, beside other programs where they are installed
+    /// Measure the time of each stage, and of other programs if they are installed
     Bench(bench::Bench),
     /// Print a completion script for a shell
     Completions {
-        /// The shell that will read it
+        /// The shell that the script is for
         shell: clap_complete::Shell,
     },
     /// Print the manual page (roff), to be read by `man -l -`
     Man,
 }
 
-/// Parses the command line and runs what it asks for. Exit status: 0 done, 1 the input could not be
-/// used, 2 wrong usage.
+/// Parses the command line and runs its command. Exit status: 0 for success, 1 if the input could not be used, 2 for
+/// wrong usage.
 pub(crate) fn main() -> ExitCode {
     let cli = Cli::parse();
     match run(cli) {
@@ -91,7 +91,7 @@ fn run(cli: Cli) -> anyhow::Result<()> {
     #[cfg(feature = "window")]
     if let (Some(_), Some(path)) = (&cli.command, cli.paths.first()) {
         return Err(usage_error(&format!(
-            "“{}” stands before the command: name clouds behind it",
+            "“{}” stands before the command: name clouds after it",
             path.display()
         )));
     }
@@ -126,12 +126,14 @@ fn run(cli: Cli) -> anyhow::Result<()> {
     }
 }
 
-/// Opens the window, unless what is named is not there: whoever mistyped a command is told in the
-/// terminal.
+/// Opens the window with the files and folders at `paths`.
+///
+/// A path that does not exist is an error in the terminal instead of a message in the window, since it may be a
+/// mistyped command.
 #[cfg(feature = "window")]
 fn open_window(paths: Vec<std::path::PathBuf>) -> anyhow::Result<()> {
     if let Some(missing) = paths.iter().find(|path| !path.exists()) {
-        // A bare word was meant as a command.
+        // A single word without an extension was most likely meant as a command.
         if missing.extension().is_none() && missing.components().count() == 1 {
             return Err(usage_error(&format!(
                 "there is no command “{}”, nor a file or folder of that name; `axiscope --help` lists the commands",
@@ -143,7 +145,7 @@ fn open_window(paths: Vec<std::path::PathBuf>) -> anyhow::Result<()> {
     Ok(axiscope::ui::open_window(paths)?)
 }
 
-/// What `render` was asked for on another command line, if it was.
+/// Parses a command line that a picture carries; `None` if it is not one of `render`'s.
 #[cfg(feature = "window")]
 fn parse_render(arguments: &[String]) -> Option<render::Render> {
     match Cli::try_parse_from(arguments).ok()?.command? {
@@ -152,7 +154,7 @@ fn parse_render(arguments: &[String]) -> Option<render::Render> {
     }
 }
 
-/// The program's manual page with each subcommand's after it, as one document.
+/// Writes the program's manual page, followed by those of its subcommands, as one document.
 fn manual(page: &mut Vec<u8>) -> std::io::Result<()> {
     let mut command = Cli::command();
     command.build();
@@ -169,13 +171,14 @@ fn manual(page: &mut Vec<u8>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The worker threads are there by the time the file is read.
+/// Starts the worker threads, so that they are running by the time the file has been read.
 fn start_threads() {
-    // Where they cannot be started, whoever needs them says so.
+    // The first parallel stage reports a failure to start them.
     #[cfg(feature = "parallel")]
     let _ = rayon::ThreadPoolBuilder::new().build_global();
 }
 
+/// Limits the worker threads.
 #[cfg(feature = "parallel")]
 fn use_threads(threads: usize) -> anyhow::Result<()> {
     Ok(rayon::ThreadPoolBuilder::new()
@@ -192,18 +195,12 @@ fn use_threads(threads: usize) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The time, to the second, for what is written into annotations.
-fn now() -> String {
-    let since_1970 = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-    axiscope::annotate::rfc3339(since_1970.map_or(0, |since| since.as_secs()))
-}
-
-/// An error of whoever typed the command line, found only after it was parsed.
+/// Returns an error in the use of the command line that shows only after parsing; it ends the program with status 2.
 fn usage_error(message: &str) -> anyhow::Error {
     clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{message}\n")).into()
 }
 
-/// Whether whoever read our output has gone away, as `head` does: no failure of ours.
+/// Whether the reader of standard output has closed it, as `head` does, which is no failure.
 fn is_broken_pipe(error: &anyhow::Error) -> bool {
     let io = error.downcast_ref::<std::io::Error>();
     io.is_some_and(|e| e.kind() == std::io::ErrorKind::BrokenPipe)

@@ -1,4 +1,4 @@
-//! The options that every analyzing command shares.
+//! The options that the analyzing commands share, and the parsers of their values.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -12,6 +12,7 @@ use axiscope::method::{
     RandomSearch, TAU_CM_PER_RAD,
 };
 use axiscope::peduncle::HueRange;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 
@@ -19,115 +20,66 @@ use glam::DVec3;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Analysis")]
 pub(super) struct AnalysisOptions {
-    /// Which reading of the paper to follow; single options below override it
+    /// Reading of the paper; the options below override parts of it
     #[arg(long, value_enum, default_value = "as-intended")]
-    pub(super) preset: PresetOption,
-    /// Steps of the candidate grid along each angle: u² planes
+    pub(super) preset: Preset,
+    /// Steps of the grid of candidate planes along each angle, which makes u² planes
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = grid_size)]
     pub(super) u: usize,
-    /// Weight of an angle against a distance, in cm per radian [default: 3/π]
+    /// Weight τ of an angle against a distance, in cm per radian [default: 3/π]
     #[arg(long, value_name = "X", value_parser = not_negative, allow_negative_numbers = true)]
     pub(super) tau: Option<f64>,
     /// Unit of the file's coordinates
-    #[arg(long, value_enum, default_value = "auto")]
-    pub(super) unit: UnitOption,
-    /// Where normals come from; auto takes the file's where it has them
-    #[arg(long, value_enum, default_value = "auto")]
-    pub(super) normals: NormalsOption,
-    /// Neighbors that a normal is fitted to, the point itself among them
+    #[arg(long, default_value = "auto", value_parser = unit_or_auto())]
+    pub(super) unit: OrAuto<Unit>,
+    /// Source of the normals
+    #[arg(long, default_value = "auto", value_parser = or_auto::<NormalSource>("The file's normals where it has them, else estimated ones"))]
+    pub(super) normals: OrAuto<NormalSource>,
+    /// Number of nearest points, including the point itself, that a normal is fitted to
     #[arg(long, value_name = "N", default_value = "30", value_parser = neighbor_count)]
     pub(super) k: NonZeroUsize,
     /// Fruit center: equidistant, mean-rms, sphere, or X,Y,Z in the file's unit [default: the preset's]
     #[arg(long, value_name = "CENTER", allow_hyphen_values = true)]
     pub(super) center: Option<CenterOption>,
-    /// Random points among which the center is searched
+    /// Number of random points that the search for the center tries
     #[arg(long, value_name = "N", default_value = "10000", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pub(super) center_samples: u32,
-    /// Their spread, in multiples of the cloud's own
+    /// Spread of these random points, in multiples of the cloud's own
     #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive, allow_negative_numbers = true)]
     pub(super) center_spread: f64,
-    /// How a plane's score is made of its points' scores [default: the preset's]
+    /// Combination of the points' scores into a plane's score [default: the preset's]
     #[arg(long, value_enum)]
-    pub(super) aggregate: Option<AggregateOption>,
-    /// Least share of points with a partner that lets a plane win [default: 0.3 for the mean, 0 for the sum]
+    pub(super) aggregate: Option<Aggregation>,
+    /// Least fraction of points with a partner that a symmetry plane needs, 0 to 1 [default: 0.3 for the mean, 0 for the sum]
     #[arg(long, value_name = "F", value_parser = fraction, allow_negative_numbers = true)]
     pub(super) min_partner_fraction: Option<f64>,
-    /// Where the camera is, in the file's unit and frame
+    /// Position of the camera, in the file's unit and frame
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = position, allow_hyphen_values = true)]
     pub(super) viewpoint: DVec3,
-    /// Seed of everything random
+    /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) seed: u64,
-    /// Where the peduncle is: auto, none, label, a PLY file, or hue=LO..HI in degrees
+    /// Source of the peduncle: auto, none, label, a PLY file, or hue=LO..HI in degrees
     #[arg(long, value_name = "WHERE", default_value = "auto", value_parser = peduncle_choice)]
     pub(super) peduncle: PeduncleChoice,
-    /// A folder with the same clouds without their peduncles, under the same names: the peduncle is what is missing there
+    /// Folder with the same clouds, under the same names, without their peduncles: the missing points are the peduncle
     #[arg(long, value_name = "DIR", conflicts_with = "peduncle")]
     pub(super) removed: Option<PathBuf>,
     /// Leave the peduncle's points out of the analysis
     #[arg(long)]
     pub(super) without_peduncle: bool,
-    /// Leave out statistical outliers, judged by this many neighbors
+    /// Leave out statistical outliers, by the mean distance to this many nearest points
     #[arg(long, value_name = "N")]
     pub(super) outlier_neighbors: Option<NonZeroUsize>,
-    /// Standard deviations beyond which a point is an outlier
+    /// Standard deviations above the mean beyond which that distance makes a point an outlier
     #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive, requires = "outlier_neighbors", allow_negative_numbers = true)]
     pub(super) outlier_std: f64,
-    /// Thin the cloud to one point a cube of this edge, in centimeters
+    /// Thin the cloud to one point per cube with this edge, in cm
     #[arg(long, value_name = "CM", value_parser = positive, allow_negative_numbers = true)]
     pub(super) voxel_cm: Option<f64>,
-    /// Analyze at most so many points: of a larger cloud a sample, by as fine a voxel grid as that allows
+    /// Largest number of points to analyze; a larger cloud is thinned by the finest voxel grid that suffices
     #[arg(long, value_name = "N", default_value_t = Filters::MOST, value_parser = sample_size)]
     pub(super) max_points: usize,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum PresetOption {
-    /// Eq. 3 and the sum of the scores word for word
-    AsPrinted,
-    /// What the words around the equations mean
-    AsIntended,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum UnitOption {
-    /// Meters
-    M,
-    /// Centimeters
-    Cm,
-    /// Millimeters
-    Mm,
-    /// As the file states, else guessed from its extent
-    Auto,
-}
-
-impl UnitOption {
-    pub(super) fn unit(self) -> Option<Unit> {
-        match self {
-            Self::M => Some(Unit::Meter),
-            Self::Cm => Some(Unit::Centimeter),
-            Self::Mm => Some(Unit::Millimeter),
-            Self::Auto => None,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum NormalsOption {
-    /// Fit a plane to each point's neighborhood
-    Estimate,
-    /// Take the file's
-    File,
-    /// Take the file's where it has them, else estimate
-    Auto,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum AggregateOption {
-    /// The mean over the points with a partner
-    Mean,
-    /// The sum over them
-    Sum,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -154,40 +106,28 @@ impl FromStr for CenterOption {
 }
 
 impl AnalysisOptions {
-    /// What to do with a cloud.
+    /// Returns the request to analyze a cloud.
     pub(super) fn request(&self) -> Request {
         Request {
-            unit: self.unit.unit(),
+            unit: self.unit,
             peduncle: match &self.removed {
                 Some(folder) => PeduncleChoice::Removed(folder.clone()),
                 None => self.peduncle.clone(),
             },
             without_peduncle: self.without_peduncle,
-            normals: match self.normals {
-                NormalsOption::Estimate => Some(NormalSource::Estimate),
-                NormalsOption::File => Some(NormalSource::File),
-                NormalsOption::Auto => None,
-            },
+            normals: self.normals,
             params: self.params(),
         }
     }
 
     fn params(&self) -> Params {
-        let preset = match self.preset {
-            PresetOption::AsPrinted => Preset::AsPrinted,
-            PresetOption::AsIntended => Preset::AsIntended,
-        };
         let search = RandomSearch {
             count: self.center_samples as usize,
             spread: self.center_spread,
             seed: self.seed,
         };
-        let defaults = Params::new(preset, Unit::Centimeter);
-        let aggregation = match self.aggregate {
-            Some(AggregateOption::Mean) => Aggregation::Mean,
-            Some(AggregateOption::Sum) => Aggregation::Sum,
-            None => defaults.aggregation,
-        };
+        let defaults = Params::new(self.preset, Unit::Centimeter);
+        let aggregation = self.aggregate.unwrap_or(defaults.aggregation);
         Params {
             u: self.u,
             tau_cm_per_rad: self.tau.unwrap_or(TAU_CM_PER_RAD),
@@ -197,7 +137,7 @@ impl AnalysisOptions {
                 Some(CenterOption::MeanRms) => CenterMethod::MeanRms(search),
                 Some(CenterOption::Sphere) => CenterMethod::Sphere,
                 Some(CenterOption::Given(center)) => CenterMethod::Given(center),
-                None => CenterMethod::of_preset(preset, search),
+                None => CenterMethod::of_preset(self.preset, search),
             },
             aggregation,
             min_partner_fraction: self
@@ -215,6 +155,24 @@ impl AnalysisOptions {
             ..defaults
         }
     }
+}
+
+/// The value of an option that takes `auto` besides the names of `T`; `None` stands for `auto`. Under this name,
+/// clap does not take it for an option that may be missing.
+pub(super) type OrAuto<T> = Option<T>;
+
+/// Parses the names of `T`, and `auto`, whose help text is `help`.
+fn or_auto<T: ValueEnum + Send + Sync + 'static>(
+    help: &'static str,
+) -> impl TypedValueParser<Value = Option<T>> {
+    let named = T::value_variants().iter().filter_map(T::to_possible_value);
+    let auto = PossibleValue::new("auto").help(help);
+    PossibleValuesParser::new(named.chain([auto])).map(|name| T::from_str(&name, false).ok())
+}
+
+/// Parses a unit, or `auto`.
+pub(super) fn unit_or_auto() -> impl TypedValueParser<Value = Option<Unit>> {
+    or_auto("As the file states, else guessed from its extent")
 }
 
 pub(super) fn grid_size(text: &str) -> Result<usize, String> {
@@ -272,7 +230,7 @@ fn fraction(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Three finite numbers with commas between them.
+/// Parses three finite numbers with commas between them.
 pub(super) fn position(text: &str) -> Result<DVec3, String> {
     let numbers: Vec<f64> = text.split(',').map(number).collect::<Result<_, _>>()?;
     match numbers[..] {
@@ -305,7 +263,7 @@ fn hue_range(text: &str) -> Result<HueRange, String> {
     })
 }
 
-/// Depths to simulate at, in cm, ascending.
+/// The depths of simulated ellipsoids in cm, ascending.
 #[derive(Debug, Clone)]
 pub(super) struct Depths(pub(super) Vec<f64>);
 
@@ -313,14 +271,15 @@ pub(super) fn depths(text: &str) -> Result<Depths, String> {
     range(text).map(Depths)
 }
 
-/// One number, or all from FROM to TO in steps of STEP (1 where it is not given). At least one.
+/// Parses a number, or FROM..TO[:STEP] as the numbers from FROM to TO in steps of STEP (1 by default). Returns at least
+/// one number.
 pub(super) fn range(text: &str) -> Result<Vec<f64>, String> {
     let Some((from, rest)) = text.split_once("..") else {
         return Ok(vec![number(text)?]);
     };
     let (to, step) = rest.split_once(':').unwrap_or((rest, "1"));
     let (from, to, step) = (number(from)?, number(to)?, positive(step)?);
-    // A thousandth of a step forgives the rounding of the last one.
+    // TO counts as a step even if rounding puts it slightly beyond: 0.1..0.3:0.1 has three.
     let steps = ((to - from) / step + 1e-3).floor();
     if !(0.0..10_000.0).contains(&steps) {
         return Err("expected FROM..TO[:STEP] with FROM below TO".into());
@@ -328,7 +287,7 @@ pub(super) fn range(text: &str) -> Result<Vec<f64>, String> {
     Ok((0..=steps as usize).map(|i| from + i as f64 * step).collect())
 }
 
-/// Two finite numbers with a comma between them.
+/// Parses two finite numbers with a comma between them.
 pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
     let (a, b) = text
         .split_once(',')

@@ -1,9 +1,9 @@
-//! What of a picture can be asked for on the command line.
+//! The command-line options of a picture.
 
-use axiscope::app::Drawing;
 use axiscope::evaluate::TruthChoice;
 use axiscope::render::{Camera, Projection};
-use axiscope::view::{Coloring, Overlays, Theme, ViewPreset};
+use axiscope::view::{Coloring, Drawing, Overlays, Style, Theme, ViewPreset};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::options::positive;
@@ -11,163 +11,73 @@ use super::options::positive;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Picture")]
 pub(super) struct Picture {
-    /// Pixels, from 1x1 to 16384x16384
+    /// Width and height in pixels, from 1x1 to 16384x16384
     #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = size)]
     pub(super) size: [u32; 2],
-    /// What the points' colors show
+    /// Meaning of the points' colors
     #[arg(long, value_enum, default_value = "side")]
-    pub(super) color: ColorOption,
-    /// The plane to look at: best, or its G,H
+    pub(super) color: Coloring,
+    /// Plane to show: best, or its G,H
     #[arg(long, value_name = "PLANE", default_value = "best", value_parser = plane_choice)]
-    pub(super) plane: PlaneChoice,
-    /// Where to look from
+    pub(super) plane: OrBest<[usize; 2]>,
+    /// Direction of the view
     #[arg(long, value_enum, default_value = "camera")]
-    pub(super) view: ViewOption,
-    /// The very camera, as the window writes it into pictures and command lines; --view is then not looked at
+    pub(super) view: ViewPreset,
+    /// Exact camera, as the window writes it into pictures and command lines; overrides --view
     #[arg(long, value_name = "JSON", value_parser = camera)]
     pub(super) camera: Option<Camera>,
-    /// The axis that the computed one is compared with
-    #[arg(long, value_enum, default_value = "peduncle")]
-    pub(super) reference: ReferenceOption,
-    /// What is drawn over the points: all, none, or names with commas between them [default:
+    /// The axis that the computed one is compared with; without one of this kind, the first there is
+    #[arg(long, default_value = "peduncle", value_parser = reference())]
+    pub(super) reference: TruthChoice,
+    /// Overlays on the points: all, none, or names with commas between them [default:
     /// plane,center,axis,reference,legend,scale,triad,caption; others: normal,viewpoint,ghost,partners,normals]
     #[arg(long, value_name = "LIST", value_parser = str::parse::<Overlays>)]
     pub(super) overlays: Option<Overlays>,
-    /// Light on dark, or dark on light
+    /// Background of the picture
     #[arg(long, value_enum, default_value = "dark")]
-    pub(super) background: BackgroundOption,
-    /// A point's diameter in pixels [default: by the number of points and pixels]
+    pub(super) background: Theme,
+    /// Diameter of a point in pixels [default: by the number of points and pixels]
     #[arg(long, value_name = "PX", value_parser = point_size, allow_negative_numbers = true)]
     pub(super) point_size: Option<f64>,
-    /// Parallel lines stay parallel
+    /// Use an orthographic projection: parallel lines stay parallel
     #[arg(long)]
     pub(super) orthographic: bool,
-    /// No shading by depth
+    /// Leave out the shading of steps in depth
     #[arg(long)]
     pub(super) flat: bool,
 }
 
 impl Picture {
-    /// What these options ask for.
+    /// The settings of the picture.
     pub(super) fn drawing(&self) -> Drawing {
         Drawing {
             size_px: self.size,
-            coloring: self.color.coloring(),
-            plane: match self.plane {
-                PlaneChoice::Best => None,
-                PlaneChoice::Named { g, h } => Some([g, h]),
+            style: Style {
+                coloring: self.color,
+                overlays: self.overlays.clone().unwrap_or_default(),
+                theme: self.background,
+                point_size: self.point_size.map(|px| px as f32),
+                eye_dome: !self.flat,
             },
-            view: self.view.preset(),
+            plane: self.plane,
+            view: self.view,
             camera: self.camera,
-            reference: self.reference.choice(),
-            overlays: self.overlays.clone().unwrap_or_default(),
-            theme: match self.background {
-                BackgroundOption::Dark => Theme::Dark,
-                BackgroundOption::Light => Theme::Light,
-            },
-            point_size_px: self.point_size,
             projection: if self.orthographic {
                 Projection::Orthographic
             } else {
                 Projection::Perspective
             },
-            is_shaded: !self.flat,
             has_angle: true,
         }
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum ColorOption {
-    /// The file's colors
-    Rgb,
-    /// The side of the plane
-    Side,
-    /// Whether a point has a visible partner, or is one
-    Partner,
-    /// d: from the reflected point to its nearest neighbor
-    Distance,
-    /// ξ: between the reflected normal and that neighbor's
-    Angle,
-    /// d + τξ
-    Score,
-    /// The normal's direction
-    Normal,
-    /// The file's labels
-    Label,
-}
-
-impl ColorOption {
-    pub(super) fn coloring(self) -> Coloring {
-        match self {
-            Self::Rgb => Coloring::Rgb,
-            Self::Side => Coloring::Side,
-            Self::Partner => Coloring::Partner,
-            Self::Distance => Coloring::Distance,
-            Self::Angle => Coloring::Angle,
-            Self::Score => Coloring::Score,
-            Self::Normal => Coloring::Normal,
-            Self::Label => Coloring::Label,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum PlaneChoice {
-    Best,
-    Named { g: usize, h: usize },
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum ViewOption {
-    /// From the viewpoint, as the depth camera saw it
-    Camera,
-    /// Along the depth axis
-    Front,
-    /// From the camera's right
-    Side,
-    /// From above
-    Top,
-    /// Along the plane's normal
-    Normal,
-    /// Along the axis
-    Axis,
-}
-
-impl ViewOption {
-    pub(super) fn preset(self) -> ViewPreset {
-        match self {
-            Self::Camera => ViewPreset::Camera,
-            Self::Front => ViewPreset::Front,
-            Self::Side => ViewPreset::Side,
-            Self::Top => ViewPreset::Top,
-            Self::Normal => ViewPreset::Normal,
-            Self::Axis => ViewPreset::Axis,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum ReferenceOption {
-    /// The peduncle's, else the first there is
-    Peduncle,
-    /// The peduncle's own direction, else the first there is
-    PeduncleDirection,
-    /// The simulator's, else the first there is
-    Truth,
-    /// The one set by hand: the adjudicated one, else the annotators' mean, else the first there is
-    Manual,
-}
-
-impl ReferenceOption {
-    pub(super) fn choice(self) -> TruthChoice {
-        match self {
-            Self::Peduncle => TruthChoice::Peduncle,
-            Self::PeduncleDirection => TruthChoice::PeduncleDirection,
-            Self::Truth => TruthChoice::Truth,
-            Self::Manual => TruthChoice::Manual,
-        }
-    }
+/// Parses the name of a kind of reference; `auto` is not offered.
+fn reference() -> impl TypedValueParser<Value = TruthChoice> {
+    let kinds = TruthChoice::value_variants().iter().copied();
+    let names = kinds.filter(|kind| *kind != TruthChoice::Auto);
+    PossibleValuesParser::new(names.filter_map(|kind| kind.to_possible_value()))
+        .try_map(|name| TruthChoice::from_str(&name, false))
 }
 
 fn camera(text: &str) -> Result<Camera, String> {
@@ -177,14 +87,6 @@ fn camera(text: &str) -> Result<Camera, String> {
     } else {
         Err("its numbers must be finite, and the focus distance and field of view positive".into())
     }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum BackgroundOption {
-    /// For screens
-    Dark,
-    /// For print
-    Light,
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
@@ -208,16 +110,20 @@ fn point_size(text: &str) -> Result<f64, String> {
     }
 }
 
-fn plane_choice(text: &str) -> Result<PlaneChoice, String> {
+/// The value of an option that takes `best`, which is `None`. Under this name, clap does not take it for an option
+/// that may be missing.
+type OrBest<T> = Option<T>;
+
+fn plane_choice(text: &str) -> Result<OrBest<[usize; 2]>, String> {
     if text == "best" {
-        return Ok(PlaneChoice::Best);
+        return Ok(None);
     }
     let numbers: Vec<usize> = text
         .split(',')
         .map(|n| n.trim().parse().map_err(|_| "expected best, or two numbers G,H"))
         .collect::<Result<_, _>>()?;
     match numbers[..] {
-        [g, h] => Ok(PlaneChoice::Named { g, h }),
+        [g, h] => Ok(Some([g, h])),
         _ => Err("expected best, or two numbers G,H".into()),
     }
 }

@@ -1,4 +1,4 @@
-//! Progress on standard error, and the time that each stage takes.
+//! Progress bars on standard error, and the time that each stage takes.
 
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -7,14 +7,14 @@ use axiscope::method::{Observe, Stage};
 use axiscope::parallel::Watch;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Watches one cloud being read and analyzed: a bar once it takes long enough to wonder, and a clock for each stage.
+/// A watch over the analysis of one cloud: it measures the time of each stage, and shows a bar if the work takes long.
 pub(super) struct StageClock {
     bar: ProgressBar,
     started: Instant,
     entered: Mutex<Vec<(Stage, Instant)>>,
 }
 
-/// Shorter work than this shows no bar.
+/// The time after which a bar is shown.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 impl StageClock {
@@ -26,7 +26,7 @@ impl StageClock {
         }
     }
 
-    /// Ends the bar and tells how long each stage took.
+    /// Removes the bar and returns the time that each stage took.
     pub(super) fn finish(self) -> StageTimes {
         self.bar.finish_and_clear();
         let entered = self.entered.into_inner().unwrap_or_default();
@@ -37,14 +37,14 @@ impl StageClock {
     }
 }
 
-/// When each stage began.
+/// The times at which the stages began.
 pub(super) struct StageTimes {
     entered: Vec<(Stage, Instant)>,
     ended: Instant,
 }
 
 impl StageTimes {
-    /// How long `stage` took, in milliseconds; 0 where it did not run.
+    /// Returns the time that `stage` took in milliseconds; 0 if it did not run.
     pub(super) fn milliseconds(&self, stage: Stage) -> f64 {
         let ends = self.entered.iter().skip(1).map(|e| e.1).chain([self.ended]);
         let spans = self.entered.iter().zip(ends);
@@ -79,13 +79,13 @@ impl Observe for StageClock {
     }
 }
 
-/// A bar on standard error; invisible where that is no terminal.
+/// Returns a bar on standard error, which is invisible unless that is a terminal.
 pub(super) fn bar(template: &str) -> ProgressBar {
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::no_length().with_style(style.progress_chars("━╸─"))
 }
 
-/// A progress bar that counts finished pieces, in whatever order they finish.
+/// A progress bar that counts finished pieces, which may report out of order: the bar never moves back.
 pub(super) struct CountingBar {
     bar: ProgressBar,
     furthest: Mutex<usize>,

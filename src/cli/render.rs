@@ -4,11 +4,10 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use axiscope::app::{DrawingError, draw_cloud};
 use axiscope::evaluate::{Examined, examine};
 use axiscope::fruit::Fruit;
 use axiscope::render::Gpu;
-use axiscope::view::{PictureSettings, encode_picture, picture_settings};
+use axiscope::view::{DrawingError, PictureSettings, draw_cloud, encode_picture, picture_settings};
 use clap::Args;
 
 use super::options::AnalysisOptions;
@@ -16,16 +15,16 @@ use super::picture_options::Picture;
 use super::progress::StageClock;
 use super::usage_error;
 
-/// What of the picture is asked for; the analysis has its own options.
+/// The arguments of `render`.
 #[derive(Debug, Args)]
 pub(super) struct Render {
-    /// The point cloud (PLY); with --from, where it lies now
+    /// The point cloud (PLY); with --from, its present path
     #[arg(required_unless_present = "from")]
     cloud: Option<PathBuf>,
-    /// The PNG to write; it carries its settings
+    /// The PNG to write, which carries its settings
     #[arg(short, long, value_name = "PATH")]
     out: PathBuf,
-    /// Draw a picture again, from the settings that it carries
+    /// Draw this picture again, from the settings that it carries
     #[arg(long, value_name = "PNG", conflicts_with_all = ["Picture", "AnalysisOptions"])]
     from: Option<PathBuf>,
     #[command(flatten)]
@@ -87,44 +86,20 @@ fn draw(
 ) -> anyhow::Result<Vec<u8>> {
     let examined = examined(cloud, options, expected_sha256)?;
     let gpu = Gpu::headless()?;
-    let drawing = Drawing {
-        named,
-        picture,
-        arguments,
-    };
-    picture_of(&examined, drawing, &gpu).with_context(|| cloud.display().to_string())
-}
-
-/// What to draw of a cloud.
-pub(super) struct Drawing<'a> {
-    /// What the settings and the caption call the cloud.
-    pub(super) named: &'a Path,
-    pub(super) picture: &'a Picture,
-    /// The command line that the picture carries.
-    pub(super) arguments: Vec<String>,
-}
-
-/// A picture of a cloud that was examined, as PNG bytes.
-pub(super) fn picture_of(examined: &Examined, drawing: Drawing<'_>, gpu: &Gpu) -> anyhow::Result<Vec<u8>> {
-    let Drawing {
-        named,
-        picture,
-        arguments,
-    } = drawing;
     let name = named.file_name().unwrap_or_default().to_string_lossy();
-    let image = draw_cloud(examined, &picture.drawing(), &name, gpu).map_err(|error| match error {
+    let drawn = examined.drawn(&name, picture.reference);
+    let image = draw_cloud(&drawn, &picture.drawing(), &gpu, &()).map_err(|error| match error {
         DrawingError::NoSuchPlane { .. } => usage_error(&error.to_string()),
         _ => error.into(),
-    })?;
-    Ok(encode_picture(
-        &image,
-        &PictureSettings {
-            version: env!("CARGO_PKG_VERSION").into(),
-            arguments,
-            cloud: named.display().to_string(),
-            sha256: examined.fruit.file.sha256.clone(),
-        },
-    )?)
+    });
+    let image = image.with_context(|| cloud.display().to_string())?;
+    let settings = PictureSettings {
+        version: env!("CARGO_PKG_VERSION").into(),
+        arguments,
+        cloud: named.display().to_string(),
+        sha256: examined.fruit.file.sha256.clone(),
+    };
+    encode_picture(&image, &settings).with_context(|| cloud.display().to_string())
 }
 
 /// The fruit, its analysis and its references; warnings go to standard error.
@@ -134,7 +109,7 @@ fn examined(
     expected_sha256: Option<&str>,
 ) -> anyhow::Result<Examined> {
     let request = options.request();
-    let fruit = Fruit::read(cloud, request.unit, &request.peduncle)?;
+    let fruit = Fruit::read(cloud, &request)?;
     if expected_sha256.is_some_and(|hash| hash != fruit.file.sha256) {
         eprintln!(
             "Warning: {} has changed since the picture was drawn: this one may differ.",

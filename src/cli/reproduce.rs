@@ -18,19 +18,19 @@ pub(super) struct Reproduce {
     /// Depths of the ellipsoid in cm, as FROM..TO[:STEP]
     #[arg(long, value_name = "Z", default_value = "25..70:1", value_parser = depths)]
     z0: Depths,
-    /// Runs at each depth, each with random points of its own
+    /// Runs at each depth, each with its own random points
     #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     runs: u32,
-    /// Visible points of an ellipsoid; the paper does not tell
+    /// Visible points of an ellipsoid, which the paper does not state
     #[arg(long, value_name = "N", default_value_t = 1500)]
     points: usize,
     /// Simulated peppers, each with and without its peduncle; 0 leaves § 3.2 out
     #[arg(long, value_name = "N", default_value_t = 27, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     peppers: u32,
-    /// Steps of the candidate grid along each angle
+    /// Steps of the grid of candidate planes along each angle
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = grid_size)]
     u: usize,
-    /// Seed of everything random
+    /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
 }

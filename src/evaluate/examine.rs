@@ -1,4 +1,4 @@
-//! One cloud, analyzed and compared with every reference that is known of it.
+//! The analysis of one cloud and its comparison with every known reference axis.
 
 use crate::annotate::{Role, estimates};
 use crate::fruit::{Fruit, Request};
@@ -6,41 +6,58 @@ use crate::method::{Analysis, AnalysisError, AxisEstimate, AxisSource, Observe, 
 use crate::text::sentence;
 use serde::{Deserialize, Serialize};
 
-/// Which reference an error is measured against.
+/// A choice among the reference axes of a cloud.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum TruthChoice {
-    /// The simulator's truth where there is one, else the annotators', else the peduncle's.
+    /// The axis of the simulator if there is one, else the one set by hand, else that of the peduncle.
     Auto,
-    /// The peduncle's axis (§ 3.2).
+    /// The line from the fruit center through the mean of the peduncle's points (§ 3.2).
     Peduncle,
-    /// The peduncle's own direction.
+    /// The direction in which the peduncle's points are spread most.
     PeduncleDirection,
-    /// The axis that was set by hand: the adjudicated one where there is one, else the mean of the
-    /// annotators'.
+    /// The axis set by hand: the adjudicated one if there is one, else the mean of the annotators' axes.
     Manual,
-    /// The axis in `NAME.truth.json`.
+    /// The axis of the simulator, from `NAME.truth.json`.
     Truth,
 }
 
-/// A cloud's analysis and its references.
+/// A cloud with its analysis and its reference axes.
 #[derive(Debug, Clone)]
 pub struct Examined {
     /// The cloud.
     pub fruit: Fruit,
     /// Its analysis.
     pub analysis: Analysis,
-    /// The axes to compare with, the peduncle's first.
+    /// The known reference axes, that of the peduncle first.
     pub references: Vec<AxisEstimate>,
-    /// What the reader ought to know: the file's warnings, then the method's. Sentences.
+    /// The warnings of the file, then those of the method, as sentences.
     pub warnings: Vec<String>,
     /// The stages of the analysis, for others of the same cloud.
     pub(super) stages: Stages,
 }
 
-/// Analyzes a fruit as asked, and gathers its references.
+#[cfg(feature = "window")]
+impl Examined {
+    /// Returns the cloud as it is drawn: under `name`, and compared with the chosen reference, or else with the first
+    /// one.
+    pub fn drawn<'a>(&'a self, name: &'a str, choice: TruthChoice) -> crate::view::DrawnCloud<'a> {
+        let references = &self.references;
+        crate::view::DrawnCloud {
+            name,
+            cloud: self.fruit.cloud(),
+            unit: self.fruit.unit,
+            analysis: &self.analysis,
+            references,
+            reference: reference_of(references, choice).or(references.first()),
+        }
+    }
+}
+
+/// Analyzes a fruit and collects its reference axes.
 ///
 /// # Errors
-/// Where the cloud cannot be analyzed, or the watcher calls the work off.
+/// Returns an error if the cloud cannot be analyzed, or the observer cancels the work.
 pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result<Examined, AnalysisError> {
     let mut stages = Stages::new(if request.without_peduncle {
         fruit.body()
@@ -58,8 +75,8 @@ pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result
     })
 }
 
-/// The axes that an analysis can be compared with, the peduncle's first, and what the reader ought to
-/// know: the file's warnings, then the method's, as sentences.
+/// Collects the reference axes of an analysis, that of the peduncle first, and the warnings: those of the file, then
+/// those of the method, as sentences.
 pub fn compared(fruit: &Fruit, request: &Request, analysis: &Analysis) -> (Vec<AxisEstimate>, Vec<String>) {
     let mut warnings = fruit.warnings.clone();
     if request.without_peduncle && fruit.peduncle.is_none() {
@@ -103,7 +120,7 @@ pub fn compared(fruit: &Fruit, request: &Request, analysis: &Analysis) -> (Vec<A
     (references, warnings)
 }
 
-/// The reference that `choice` asks for, if it is there.
+/// Returns the chosen reference axis, if it is known.
 pub fn reference_of(references: &[AxisEstimate], choice: TruthChoice) -> Option<&AxisEstimate> {
     let of = |source: AxisSource| references.iter().find(|axis| axis.source == source);
     let mean = || {
@@ -122,8 +139,8 @@ pub fn reference_of(references: &[AxisEstimate], choice: TruthChoice) -> Option<
     }
 }
 
-/// How far the peduncle's two references are apart, in degrees; `None` where there are not both. Where it
-/// is much, an error against one of them says little of the method.
+/// Returns the angle in degrees between the two reference axes of the peduncle; `None` unless both are known. If it is
+/// large, an error against either of them says little about the method.
 pub fn peduncle_disagreement_deg(references: &[AxisEstimate]) -> Option<f64> {
     let first = reference_of(references, TruthChoice::Peduncle)?;
     let second = reference_of(references, TruthChoice::PeduncleDirection)?;

@@ -1,26 +1,46 @@
-//! Clouds examined: one in full, with its report, or many, one row a cloud, and what the rows say
-//! together.
+//! Evaluation of one cloud, with its report, or of many: a row for each, and tables, figures and a page about all
+//! of them.
 //!
-//! A cloud that cannot be read or analyzed is a row with its reason. Rows hold no times, so that a
-//! resumed run, a run in shards and an unbroken run give the same bytes.
+//! [`examine`] analyzes a cloud and compares it with its reference axes; an [`Outcome`] holds the comparison, and
+//! a [`Row`] the part of it that belongs to one reference. A [`Runner`] does that for cloud after cloud, and keeps
+//! the rows in a [`RowStore`]. A cloud that cannot be read or analyzed has a row with the reason. Rows hold no
+//! times: a resumed run, a run in shards and an unbroken run give the same bytes.
 
+mod checksummed_lines;
 mod examine;
+mod file_hashes;
 mod outcome;
+#[cfg(feature = "window")]
+mod pictures;
 mod report;
+#[cfg(feature = "reports")]
 pub mod reproduce;
+#[cfg(feature = "reports")]
 mod results;
 mod row;
+mod row_store;
+mod runner;
 mod start;
 mod summary;
 mod sweep;
-mod table;
+mod tags;
+#[cfg(feature = "reports")]
+mod thumbnails;
 
 pub use examine::{Examined, TruthChoice, compared, examine, peduncle_disagreement_deg, reference_of};
+pub use file_hashes::KnownHash;
 pub use outcome::{KnownAxis, Outcome};
+#[cfg(feature = "window")]
+pub use pictures::pictures_of_worst;
 pub use report::{AnalysisReport, SCHEMA, Timings};
-pub use results::{ResultsError, WorstPicture, result_files, worst_first};
+#[cfg(feature = "reports")]
+pub use results::{ResultsError, TableError, WorstPicture, csv, parquet, result_files, worst_first};
 pub use row::Row;
+pub use row_store::{RowStore, StoreKind, StoreProblem, StoredRow};
+pub use runner::{EvaluateError, EvaluatedCloud, Reuse, Runner, annotation_files, evaluate_file};
 pub use start::{StartError, start_axis};
 pub use summary::Summary;
 pub use sweep::{Sweep, SweepSettings, sweep_cloud};
-pub use table::{TableError, csv, parquet};
+pub use tags::{TAGS_FILE, Tagged, add_tags, read_tags, write_tags};
+#[cfg(feature = "reports")]
+pub use thumbnails::{THUMBNAIL_PX, ThumbnailFile, ThumbnailRenderer, ThumbnailSettings};

@@ -1,20 +1,18 @@
-//! One cloud against every reference at once.
+//! The comparison of one cloud with all of its references at once.
 
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::{Examined, Row, TruthChoice, examine, peduncle_disagreement_deg, reference_of};
-use crate::fruit::Request;
-use crate::fruit::{Fruit, FruitError, ReadErrorKind};
-use crate::method::axis_error_rad;
-use crate::method::{Analysis, AxisEstimate, Observe};
+use crate::fruit::{Fruit, FruitError, ReadErrorKind, Request};
+use crate::method::{Analysis, AxisEstimate, Observe, axis_error_rad};
 use crate::parallel::Cancelled;
 
-/// A reference axis that is known of a cloud.
+/// A reference axis of a cloud, and the error against it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KnownAxis {
-    /// Where it comes from, as in [`Row::truth`].
+    /// Its origin, as in [`Row::truth`].
     pub name: String,
     /// Its direction.
     pub direction: [f64; 3],
@@ -22,10 +20,10 @@ pub struct KnownAxis {
     pub error_deg: Option<f64>,
 }
 
-/// What came of one cloud, measured against each reference that is known of it.
+/// The result of one cloud against each of its reference axes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
-    /// Measured against [`TruthChoice::Auto`].
+    /// The row against [`TruthChoice::Auto`].
     row: Row,
     peduncle: Option<KnownAxis>,
     #[serde(default)]
@@ -35,7 +33,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Of a cloud that could not be read or analyzed.
+    /// Creates the outcome of a cloud that could not be read or analyzed.
     pub fn failed(file: &str, failure: String) -> Self {
         Self {
             row: Row::failed(file, failure),
@@ -46,7 +44,7 @@ impl Outcome {
         }
     }
 
-    /// Of a cloud that was examined.
+    /// Creates the outcome of an analyzed cloud.
     pub fn of(file: &str, examined: &Examined) -> Self {
         let Examined {
             fruit,
@@ -58,7 +56,7 @@ impl Outcome {
         Self::of_parts(file, fruit, analysis, references, warnings)
     }
 
-    /// As [`Outcome::of`], where the parts lie apart.
+    /// Creates the same outcome as [`Outcome::of`] from the parts.
     pub fn of_parts(
         file: &str,
         fruit: &Fruit,
@@ -118,10 +116,10 @@ impl Outcome {
         outcome
     }
 
-    /// Reads and analyzes the cloud at `path`; whatever goes wrong with it is in its row.
+    /// Reads and analyzes the cloud at `path`. Whatever is wrong with it is in its row.
     ///
     /// # Errors
-    /// Where the work is called off.
+    /// Returns an error if the observer cancels the work.
     pub fn of_file(
         file: &str,
         path: &Path,
@@ -129,7 +127,7 @@ impl Outcome {
         observe: &dyn Observe,
     ) -> Result<(Self, Option<Examined>), Cancelled> {
         let failed = |reason| Ok((Self::failed(file, reason), None));
-        let fruit = match Fruit::read_watched(path, request.unit, &request.peduncle, observe) {
+        let fruit = match Fruit::read_watched(path, request, observe) {
             Ok(fruit) => fruit,
             Err(FruitError::Read(error)) if matches!(error.kind, ReadErrorKind::Cancelled) => {
                 return Err(Cancelled);
@@ -143,19 +141,25 @@ impl Outcome {
         }
     }
 
-    /// Measured against [`TruthChoice::Auto`].
+    /// Returns the row against [`TruthChoice::Auto`].
     pub fn row(&self) -> &Row {
         &self.row
     }
 
-    /// The same, called `file`: what was kept may have had another name.
+    /// Returns the outcome with another file name in its row.
     #[must_use]
     pub fn named(mut self, file: &str) -> Self {
         file.clone_into(&mut self.row.file);
         self
     }
 
-    /// The reference that `choice` asks for, if it is known.
+    /// Adds a sentence to the warnings of the row.
+    pub(super) fn add_warning(&mut self, sentence: &str) {
+        self.row.warnings.push(' ');
+        self.row.warnings.push_str(sentence);
+    }
+
+    /// Returns the chosen reference, if it is known.
     pub fn reference(&self, choice: TruthChoice) -> Option<&KnownAxis> {
         match choice {
             TruthChoice::Peduncle => self.peduncle.as_ref(),
@@ -169,12 +173,12 @@ impl Outcome {
         }
     }
 
-    /// The error in degrees that `choice` asks for.
+    /// Returns the error in degrees against the chosen reference, if there is one.
     pub fn error_deg(&self, choice: TruthChoice) -> Option<f64> {
         self.reference(choice)?.error_deg
     }
 
-    /// Why there is no such error; `None` where there is one.
+    /// Returns the reason, as a clause, why there is no such error; `None` if there is one.
     pub fn failure(&self, choice: TruthChoice) -> Option<&str> {
         if self.row.sha256.is_none() {
             return self.row.failure.as_deref();
@@ -186,7 +190,7 @@ impl Outcome {
         }
     }
 
-    /// The row, measured against `choice`.
+    /// Returns the row against the chosen reference.
     pub fn against(&self, choice: TruthChoice) -> Row {
         let reference = self.reference(choice);
         Row {

@@ -7,8 +7,7 @@ use serde::Serialize;
 use super::{Examined, TruthChoice, peduncle_disagreement_deg, reference_of};
 use crate::fruit::Request;
 use crate::geometry::Unit;
-use crate::method::axis_error_rad;
-use crate::method::{Aggregation, AxisEstimate, CenterMethod, NormalSource, Params};
+use crate::method::{Aggregation, AxisEstimate, CenterMethod, NormalSource, Params, axis_error_rad};
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "axiscope.analysis/1";
@@ -30,18 +29,18 @@ pub struct AnalysisReport {
     timings_ms: Timings,
 }
 
-/// How long the stages took, in milliseconds.
+/// The durations of the stages in milliseconds.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Timings {
-    /// Reading the files, with everything up to the cloud in memory.
+    /// Reading of the files, up to the cloud in memory.
     pub read: f64,
-    /// Normals; `file` normals are taken over, which takes next to nothing.
+    /// Estimation of normals, or their copy from the file.
     pub normals: f64,
-    /// The fruit center.
+    /// Search for the fruit center.
     pub center: f64,
-    /// n, ΣD and ΣΞ of all planes, with the building of what they are searched in.
+    /// Computation of n, ΣD and ΣΞ of all planes, including the search tree.
     pub plane_terms: f64,
-    /// From the start of reading to the finished report.
+    /// Time from the start of reading to the finished report.
     pub total: f64,
 }
 
@@ -120,8 +119,8 @@ struct ReferenceReport {
 }
 
 impl AnalysisReport {
-    /// Puts a report together: `path` is the cloud's file as the user named it, `seed` the one that
-    /// was given, in force or not.
+    /// Creates a report. `path` is the cloud's file as the user named it, and `seed` the given seed, whether it is
+    /// used or not.
     pub fn new(path: &Path, request: &Request, seed: u64, examined: &Examined, timings_ms: Timings) -> Self {
         let Examined {
             fruit,

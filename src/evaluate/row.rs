@@ -1,77 +1,75 @@
-//! What is kept of one cloud: a row of the results.
+//! The row of one cloud in the results.
 
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Examined, Outcome, TruthChoice};
 use crate::geometry::Unit;
 
-/// One cloud's results. What does not exist is `None`; a cloud that failed has a `failure` and little
-/// else. Positions are in the file's unit and frame.
+/// The results of one cloud against one reference axis. Values that do not exist are `None`; a cloud that failed has
+/// a `failure` and little else. Positions are in the file's unit and frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The file's name within the folder.
     pub file: String,
-    /// SHA-256 of its bytes.
+    /// SHA-256 of the file.
     pub sha256: Option<String>,
     /// Points in the file.
     pub points: Option<u64>,
-    /// Points that took part.
+    /// Points in the analysis.
     pub used_points: Option<u64>,
-    /// The unit of its coordinates.
+    /// The unit of the coordinates.
     pub unit: Option<Unit>,
     /// The fruit center.
     pub center: Option<[f64; 3]>,
-    /// The symmetry plane's place in the grid: g, h.
+    /// The steps g and h of the symmetry plane in the grid.
     pub best: Option<[u64; 2]>,
-    /// Its score in centimeters.
+    /// The score of the symmetry plane in centimeters.
     pub score_cm: Option<f64>,
-    /// The runner-up's score in centimeters.
+    /// The score of the runner-up in centimeters.
     pub runner_up_score_cm: Option<f64>,
-    /// How much higher that is, as a share of the best.
+    /// The difference of the two scores as a share of the best.
     pub lead: Option<f64>,
     /// The share of points with a partner under the symmetry plane.
     pub partner_fraction: Option<f64>,
-    /// The symmetry axis.
+    /// The direction of the symmetry axis, of unit length.
     pub axis: Option<[f64; 3]>,
-    /// Where the reference comes from that `error_deg` is measured against.
+    /// The origin of the reference axis of `error_deg`.
     pub truth: Option<String>,
-    /// Its direction.
+    /// The direction of that reference axis.
     pub truth_axis: Option<[f64; 3]>,
-    /// The angle between axis and reference, 0 to 90 degrees.
+    /// The angle between symmetry axis and reference axis, 0 to 90 degrees.
     pub error_deg: Option<f64>,
-    /// The same against the peduncle's axis, whatever the reference.
+    /// The angle to the peduncle's axis (§ 3.2), 0 to 90 degrees.
     pub peduncle_error_deg: Option<f64>,
-    /// The same against the peduncle's own direction, whatever the reference.
+    /// The angle to the peduncle's own direction, 0 to 90 degrees.
     #[serde(default)]
     pub peduncle_direction_error_deg: Option<f64>,
-    /// How far the peduncle's two references are apart, 0 to 90 degrees.
+    /// The angle between the two reference axes of the peduncle, 0 to 90 degrees.
     #[serde(default)]
     pub peduncle_disagreement_deg: Option<f64>,
-    /// The same against the simulator's axis, whatever the reference.
+    /// The angle to the simulator's axis, 0 to 90 degrees.
     pub true_axis_error_deg: Option<f64>,
-    /// The same against the axis set by hand, whatever the reference.
+    /// The angle to the axis set by hand, 0 to 90 degrees.
     #[serde(default)]
     pub manual_error_deg: Option<f64>,
-    /// Who has set an axis of this cloud by hand, with commas between the names.
+    /// The names of the annotators who set an axis of this cloud, separated by commas.
     #[serde(default)]
     pub annotators: String,
-    /// Warnings, as sentences in a row.
+    /// The warnings, one sentence after another.
     pub warnings: String,
-    /// Why there is no error: what could not be read, analyzed, or compared.
+    /// The reason why there is no error, as a clause.
     pub failure: Option<String>,
-    /// What somebody tagged the cloud with, with commas between the tags. Not a result: it is kept in a
-    /// file of its own.
+    /// The tags of the cloud, separated by commas. They are not results, and are kept in a file of their own.
     #[serde(skip)]
     pub tags: String,
-    /// What somebody noted of the cloud.
+    /// The user's note on the cloud.
     #[serde(skip)]
     pub note: String,
 }
 
 impl Row {
-    /// The row of a cloud that could not be read or analyzed.
+    /// Creates the row of a cloud that could not be read or analyzed.
     pub fn failed(file: &str, failure: String) -> Self {
         Self {
             file: file.into(),
@@ -102,12 +100,7 @@ impl Row {
         }
     }
 
-    /// The row of a cloud that was examined.
-    pub fn of(file: &str, examined: &Examined, choice: TruthChoice) -> Self {
-        Outcome::of(file, examined).against(choice)
-    }
-
-    /// The file's name within `folder`, with forward slashes everywhere.
+    /// Returns the path of a file relative to `folder`, with forward slashes.
     pub fn name_in(folder: &Path, path: &Path) -> String {
         let name = path.strip_prefix(folder).unwrap_or(path);
         let parts: Vec<_> = name.iter().map(|part| part.to_string_lossy()).collect();

@@ -1,32 +1,32 @@
-//! Where an annotator may start from instead of nothing.
+//! The axes that an annotator may start from.
 
 use crate::annotate::{Ends, EndsError, Method};
 use crate::fruit::Fruit;
 use crate::method::{Analysis, AxisEstimate, AxisSource};
 
-/// Why there is nothing to start from. A clause.
+/// The reason why there is no axis to start from. A clause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum StartError {
-    /// No peduncle is known, or it gives no axis.
+    /// No peduncle is known, or it has no axis.
     #[error("there is no peduncle's axis to start from")]
     NoPeduncle,
-    /// The method found none.
+    /// The method found no axis.
     #[error("there is no computed axis to start from")]
     NoAxis,
-    /// An axis that is set by hand starts from nothing.
+    /// The annotation method has no axis to start from.
     #[error("an axis set by hand starts from nothing")]
     Nothing,
-    /// The fruit spans nothing along it.
+    /// The fruit has no extent along the axis.
     #[error("the fruit has no extent along the axis to start from: {0}")]
     Ends(#[from] EndsError),
 }
 
-/// The axis that an annotator starts from, as long as the fruit's body: the peduncle's
-/// ([`Method::FromPeduncle`]) or the method's own ([`Method::FromComputed`]). The latter has no sense; it
-/// is pointed to the peduncle where one is known, else up in the camera's frame, which is −y.
+/// Returns the axis that an annotator starts from, as long as the fruit's body: that of the peduncle
+/// ([`Method::FromPeduncle`]) or the computed one ([`Method::FromComputed`]). The computed axis has no sense of
+/// direction: it is turned toward the peduncle if one is known, else up in the camera's frame, which is −y.
 ///
 /// # Errors
-/// Where there is none.
+/// Returns an error if there is no such axis.
 pub fn start_axis(
     fruit: &Fruit,
     analysis: &Analysis,

@@ -1,4 +1,4 @@
-//! What many rows say together.
+//! Statistics over the rows of many clouds.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::Row;
 
-/// Errors of a set of clouds, and why some have none.
+/// Statistics of the errors of a set of clouds, and the reasons why some have none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
     /// Clouds in the set.
@@ -17,31 +17,31 @@ pub struct Summary {
     pub mean_deg: Option<f64>,
     /// Median error in degrees (the mean of the middle two of an even number).
     pub median_deg: Option<f64>,
-    /// 95th percentile in degrees: the least error that 95 % of the clouds do not exceed.
+    /// 95th percentile in degrees: the smallest error that 95 % of the clouds do not exceed.
     pub p95_deg: Option<f64>,
     /// The worst error in degrees, and its file.
     pub worst: Option<Worst>,
     /// Share of the measured clouds under 5°, 0 to 1.
     pub share_under_5_deg: Option<f64>,
-    /// Share of them under 10°.
+    /// Share of the measured clouds under 10°, 0 to 1.
     pub share_under_10_deg: Option<f64>,
-    /// Share of them under 15°.
+    /// Share of the measured clouds under 15°, 0 to 1.
     pub share_under_15_deg: Option<f64>,
-    /// How many clouds have no error, by reason.
+    /// The number of clouds without an error, by reason.
     pub failures: BTreeMap<String, usize>,
 }
 
 /// The cloud with the largest error.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Worst {
-    /// Its file.
+    /// The file's name.
     pub file: String,
-    /// Its error in degrees.
+    /// The error in degrees.
     pub error_deg: f64,
 }
 
 impl Summary {
-    /// Sums up the rows.
+    /// Computes the statistics of the rows.
     pub fn of(rows: &[Row]) -> Self {
         let mut errors: Vec<(f64, &str)> = rows
             .iter()

@@ -1,18 +1,20 @@
-//! The error over a range of settings: u and τ, with everything else as it is.
+//! The error over a range of the settings u and τ, with all others fixed.
+
+use serde::{Deserialize, Serialize};
 
 use super::{Examined, TruthChoice, reference_of};
 use crate::method::{AnalysisError, Observe, Params, axis_error_rad};
 
-/// The settings to try, each with each.
-#[derive(Debug, Clone, PartialEq)]
+/// The settings to try: every u with every τ.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SweepSettings {
-    /// Steps of the candidate grid.
+    /// The numbers of steps of the candidate grid.
     pub u: Vec<usize>,
-    /// Weights of the angle in centimeters per radian.
+    /// The weights of the angle in centimeters per radian.
     pub tau_cm_per_rad: Vec<f64>,
 }
 
-/// The mean error of a set of clouds for each setting.
+/// The mean error of a set of clouds at each setting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
     /// The settings.
@@ -22,7 +24,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// A sweep that no cloud has entered yet.
+    /// Creates a sweep without clouds.
     pub fn new(settings: SweepSettings) -> Self {
         let cells = settings.u.len() * settings.tau_cm_per_rad.len();
         Self {
@@ -32,7 +34,7 @@ impl Sweep {
         }
     }
 
-    /// Adds one cloud's errors, u-major.
+    /// Adds the errors of one cloud in degrees, u-major.
     pub fn add(&mut self, errors_deg: &[Option<f64>]) {
         let cells = self.sums_deg.iter_mut().zip(&mut self.counts);
         for ((sum, count), error) in cells.zip(errors_deg) {
@@ -43,7 +45,8 @@ impl Sweep {
         }
     }
 
-    /// The mean error in degrees and the number of clouds at a setting; no mean where there are none.
+    /// Returns the mean error in degrees and the number of clouds at a setting, given by its indices. There is no mean
+    /// without clouds.
     pub fn cell(&self, u: usize, tau: usize) -> (Option<f64>, usize) {
         let i = u * self.settings.tau_cm_per_rad.len() + tau;
         let (sum, count) = (self.sums_deg[i], self.counts[i]);

@@ -1,4 +1,4 @@
-//! A cloud from a file on disk: the only place in this room that opens one.
+//! The reader of a cloud's file.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -9,14 +9,14 @@ use sha2::{Digest, Sha256};
 use crate::parallel::{Cancelled, PartOf, Watch};
 use crate::ply::{self, PlyCloud, PlyError, Problem};
 
-/// A cloud, and the file it came from.
+/// A cloud and its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CloudFile {
-    /// The file, as it was named.
+    /// The file's path, as it was given.
     pub path: PathBuf,
     /// SHA-256 of its bytes, in 64 lowercase hexadecimal digits.
     pub sha256: String,
-    /// What it says.
+    /// The file's content.
     pub ply: PlyCloud,
 }
 
@@ -24,29 +24,29 @@ pub struct CloudFile {
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {kind}", on_one_line(.path))]
 pub struct ReadError {
-    /// The file, as it was named.
+    /// The file's path, as it was given.
     pub path: PathBuf,
     /// The cause.
     pub kind: ReadErrorKind,
 }
 
-/// Why a file gives no cloud.
+/// The reason why a file gives no cloud.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadErrorKind {
-    /// There is nothing of that name.
+    /// No file has that name.
     #[error("there is no such file")]
     NotFound,
     /// It is a directory.
     #[error("this is a folder, not a file")]
     Folder,
-    /// It is a pipe, a device or the like, of which nobody knows where it ends.
+    /// It is a pipe, a device or the like, whose end is unknown.
     #[error("this is not a regular file")]
     NotRegular,
     /// The operating system forbids it.
     #[error("permission to read the file is denied")]
     PermissionDenied,
-    /// It is larger than the memory that can be had.
+    /// It is larger than the available memory.
     #[error("the file has {size} bytes, more than there is memory for")]
     TooLarge {
         /// Its size.
@@ -92,17 +92,17 @@ impl From<io::Error> for ReadErrorKind {
 /// Reads a cloud from a PLY file.
 ///
 /// # Errors
-/// Where the file is missing, is not a regular file, cannot be read, or is no well-formed PLY file
-/// with vertices.
+/// Returns an error if the file is missing, is not a regular file, cannot be read, or is no well-formed PLY file with
+/// vertices.
 pub fn read_cloud(path: impl AsRef<Path>) -> Result<CloudFile, ReadError> {
     read_cloud_watched(path, &())
 }
 
-/// As [`read_cloud`], telling `watch` how far it is: first the bytes, then what they mean.
+/// [`read_cloud`] with its progress reported to `watch`.
 ///
 /// # Errors
-/// As [`read_cloud`]; and [`ReadErrorKind::Cancelled`] where the watch calls the work off, which it is
-/// asked every few milliseconds.
+/// Returns the errors of [`read_cloud`], and [`ReadErrorKind::Cancelled`] if the watch calls the work off. It is asked
+/// every few milliseconds.
 pub fn read_cloud_watched(path: impl AsRef<Path>, watch: &dyn Watch) -> Result<CloudFile, ReadError> {
     let path = path.as_ref();
     let part = |from, to| PartOf {
@@ -117,23 +117,22 @@ pub fn read_cloud_watched(path: impl AsRef<Path>, watch: &dyn Watch) -> Result<C
     parse_cloud_watched(path, &bytes, &part(FROM_DISK, WHOLE))
 }
 
-/// Into how many pieces reading is divided for whoever watches, and how many of them it takes to get
-/// the bytes.
+/// The number of pieces of progress, and the share of them that reading the bytes takes.
 const WHOLE: usize = 1000;
 const FROM_DISK: usize = 300;
 
-/// A cloud from the bytes of a PLY file that somebody else has read; `path` is only told again.
+/// Parses the bytes of a PLY file. `path` only names it in the result.
 ///
 /// # Errors
-/// Where the bytes are no well-formed PLY file with vertices.
+/// Returns an error if the bytes are no well-formed PLY file with vertices.
 pub fn parse_cloud(path: impl AsRef<Path>, bytes: &[u8]) -> Result<CloudFile, ReadError> {
     parse_cloud_watched(path, bytes, &())
 }
 
-/// As [`parse_cloud`], telling `watch` how far it is.
+/// [`parse_cloud`] with its progress reported to `watch`.
 ///
 /// # Errors
-/// As [`parse_cloud`]; and [`ReadErrorKind::Cancelled`] where the watch calls the work off.
+/// Returns the errors of [`parse_cloud`], and [`ReadErrorKind::Cancelled`] if the watch calls the work off.
 pub fn parse_cloud_watched(
     path: impl AsRef<Path>,
     bytes: &[u8],
@@ -169,10 +168,10 @@ fn digest(bytes: &[u8], watch: &dyn Watch) -> Result<String, Cancelled> {
         }
         hasher.update(piece);
     }
-    Ok(hexadecimal(&hasher.finalize()))
+    Ok(hex::encode(hasher.finalize()))
 }
 
-/// Bytes between two looks at the watch: a few milliseconds.
+/// The number of bytes between two questions to the watch: a few milliseconds.
 const PIECE: u64 = 4 << 20;
 
 fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
@@ -205,25 +204,10 @@ fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
 
 /// SHA-256 of some bytes, in 64 lowercase hexadecimal digits.
 pub fn sha256_hex(bytes: &[u8]) -> String {
-    hexadecimal(&Sha256::digest(bytes))
+    hex::encode(Sha256::digest(bytes))
 }
 
-/// Two digits a byte.
-fn hexadecimal(bytes: &[u8]) -> String {
-    let digit = |value: u8| {
-        char::from(if value < 10 {
-            b'0' + value
-        } else {
-            b'a' + value - 10
-        })
-    };
-    bytes
-        .iter()
-        .flat_map(|&byte| [digit(byte >> 4), digit(byte & 15)])
-        .collect()
-}
-
-/// A path as it may stand in a message: names of files may hold line ends.
+/// A path for a message of one line: names of files may hold line ends.
 fn on_one_line(path: &Path) -> String {
     let escape = |c: char| {
         if c.is_control() {

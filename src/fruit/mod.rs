@@ -1,14 +1,12 @@
-//! A fruit as its files give it: a cloud with its unit, its peduncle, its simulated truth and its annotations; what
-//! is asked of it; and the listing of the files in a folder.
-//!
-//! Readers take bytes, so that a browser build can hand them what it fetched; [`read_cloud`] is the
-//! one place here that opens a cloud.
+//! A fruit from its files: a cloud with its unit, its peduncle, its simulated truth and its annotations; the settings of
+//! its analysis; and the listing of the files in a folder.
 
 mod cloud_file;
 mod listing;
 mod picked;
 mod read;
 mod request;
+mod request_options;
 pub mod unit_guess;
 
 pub use cloud_file::{

@@ -7,19 +7,19 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::geometry::PointSet;
 
-/// For each cloud that points were picked of, by the SHA-256 of its file: which ones. A file that has
-/// changed is another cloud, whose points may be others. A copy shares everything.
+/// The picked points of each cloud, by the SHA-256 of its file: a file that has changed is another cloud, with other
+/// points. Clones share their content.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Deserialize)]
 #[serde(from = "BTreeMap<String, PointSet>")]
 pub struct PickedPoints(Arc<BTreeMap<String, Arc<PointSet>>>);
 
 impl PickedPoints {
-    /// The points that were picked of a cloud; `None` where nobody has picked any yet.
+    /// The points that were picked of a cloud; `None` if none were picked yet.
     pub fn of(&self, sha256: &str) -> Option<&Arc<PointSet>> {
         self.0.get(sha256)
     }
 
-    /// The same with other points of one cloud.
+    /// A copy with the points of one cloud replaced.
     #[must_use]
     pub fn with(&self, sha256: &str, points: Arc<PointSet>) -> Self {
         let mut all = (*self.0).clone();

@@ -1,67 +1,68 @@
-//! A fruit as its files give it: the cloud, its unit, and its peduncle.
+//! A fruit from its files: the cloud, its unit, and its peduncle.
 
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{CloudFile, PickedPoints, ReadError, read_cloud, read_cloud_watched, unit_guess};
+use super::{CloudFile, PickedPoints, ReadError, Request, read_cloud, read_cloud_watched, unit_guess};
 use crate::annotate::Annotation;
 use crate::annotate::read_annotations;
 use crate::geometry::{Cloud, Unit};
 use crate::parallel::Watch;
-use crate::peduncle::{HueRange, Peduncle, PeduncleError};
+use crate::peduncle::{HueRange, Peduncle, PeduncleError, PeduncleSource};
 use crate::simulate::Truth;
 
-/// Where to look for the peduncle.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// The source of the peduncle.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub enum PeduncleChoice {
     /// Labels in the file, else a companion file, else none.
+    #[default]
     Auto,
-    /// Nowhere.
+    /// No source: the fruit has no peduncle.
     None,
     /// The file's labels.
     Label,
-    /// A file of its own.
+    /// A separate file.
     File(PathBuf),
     /// A folder with the same cloud, under the same name, from which the peduncle was removed.
     Removed(PathBuf),
     /// The points of a color.
     Hue(HueRange),
-    /// The points that were picked by hand; where none were of a cloud, as [`PeduncleChoice::Auto`].
+    /// The points that were picked by hand; [`PeduncleChoice::Auto`] for a cloud without any.
     Points(PickedPoints),
 }
 
-/// A fruit, read and understood.
+/// A fruit as its files describe it.
 #[derive(Debug, Clone)]
 pub struct Fruit {
     /// The file and its cloud.
     pub file: Arc<CloudFile>,
     /// The unit of its coordinates.
     pub unit: Unit,
-    /// Its peduncle, where it has one.
+    /// Its peduncle, if it has one.
     pub peduncle: Option<Peduncle>,
-    /// The simulator's truth about it, where `NAME.truth.json` lies beside the cloud; in the cloud's unit.
+    /// The simulator's truth about it, from `NAME.truth.json` beside the cloud; in the cloud's unit.
     pub truth: Option<Truth>,
-    /// Why its peduncle was not found as asked, where that was passed over. A sentence.
+    /// The reason, a sentence, why [`Fruit::from_file_lenient`] found no peduncle.
     pub peduncle_problem: Option<String>,
-    /// What annotators say of its axis, in `NAME.ANNOTATOR.axis.json` beside the cloud.
+    /// The annotators' axes, from `NAME.ANNOTATOR.axis.json` beside the cloud.
     pub annotations: Vec<Annotation>,
-    /// What the reader ought to know about the file, one sentence each.
+    /// Warnings about the files, one sentence each.
     pub warnings: Vec<String>,
 }
 
-/// Why a fruit's files could not be used. One sentence that names the file.
+/// The reason why a fruit's files could not be used. One sentence that names the file.
 #[derive(Debug, thiserror::Error)]
 pub enum FruitError {
     /// A file could not be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The peduncle was not found as asked.
+    /// The peduncle was not found in the requested source.
     #[error("{}: {error}", path.display())]
     Peduncle {
         /// The cloud's file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         error: PeduncleError,
     },
 }
@@ -77,33 +78,25 @@ impl FruitError {
 }
 
 impl Fruit {
-    /// Reads a cloud, settles its unit (`None`: as stated in the file, or else guessed) and finds its
-    /// peduncle.
+    /// Reads a cloud with the request's unit (`None`: as stated in the file, or else guessed), and finds its peduncle in
+    /// the request's source.
     ///
     /// # Errors
-    /// Where a file cannot be read, or the peduncle is not found as asked.
-    pub fn read(path: &Path, unit: Option<Unit>, choice: &PeduncleChoice) -> Result<Self, FruitError> {
-        Self::read_watched(path, unit, choice, &())
+    /// Returns an error if a file cannot be read, or if the peduncle is not found in its source.
+    pub fn read(path: &Path, request: &Request) -> Result<Self, FruitError> {
+        Self::read_watched(path, request, &())
     }
 
-    /// As [`Fruit::read`], telling `watch` how far the cloud is read.
+    /// [`Fruit::read`] with its progress reported to `watch`.
     ///
     /// # Errors
-    /// As [`Fruit::read`], or where the watch calls the work off.
-    pub fn read_watched(
-        path: &Path,
-        unit: Option<Unit>,
-        choice: &PeduncleChoice,
-        watch: &dyn Watch,
-    ) -> Result<Self, FruitError> {
-        Self::of_file(Arc::new(read_cloud_watched(path, watch)?), unit, choice)
+    /// Returns the errors of [`Fruit::read`], and an error if the watch calls the work off.
+    pub fn read_watched(path: &Path, request: &Request, watch: &dyn Watch) -> Result<Self, FruitError> {
+        let file = read_cloud_watched(path, watch)?;
+        Self::from_file(Arc::new(file), request.unit, &request.peduncle)
     }
 
-    /// As [`Fruit::read`], of a cloud that was read before.
-    ///
-    /// # Errors
-    /// Where the peduncle's file cannot be read, or the peduncle is not found as asked.
-    pub fn of_file(
+    fn from_file(
         file: Arc<CloudFile>,
         unit: Option<Unit>,
         choice: &PeduncleChoice,
@@ -144,15 +137,11 @@ impl Fruit {
         }
     }
 
-    /// As [`Fruit::of_file`], but where the peduncle is not found as asked there is none, and
-    /// [`Fruit::peduncle_problem`] says why: nobody has to look at an empty window while a range of hues
-    /// or a path is not the right one yet.
-    pub fn of_file_whatever_its_peduncle(
-        file: &Arc<CloudFile>,
-        unit: Option<Unit>,
-        choice: &PeduncleChoice,
-    ) -> Self {
-        Self::of_file(file.clone(), unit, choice).unwrap_or_else(|error| {
+    /// [`Fruit::read`] for a cloud that was read before, which gives a fruit without a peduncle if it is not found in its
+    /// source; [`Fruit::peduncle_problem`] tells the reason. So the window shows the cloud while a range of hues or a path is
+    /// still being entered.
+    pub fn from_file_lenient(file: &Arc<CloudFile>, unit: Option<Unit>, choice: &PeduncleChoice) -> Self {
+        Self::from_file(file.clone(), unit, choice).unwrap_or_else(|error| {
             let problem = format!("{error}.");
             let mut fruit = Self::with_peduncle(file.clone(), unit, None);
             fruit
@@ -163,7 +152,7 @@ impl Fruit {
         })
     }
 
-    /// With what the simulator knows of the cloud, as the text of a truth file.
+    /// The fruit with the simulator's truth, given as the text of a truth file.
     #[must_use]
     pub fn with_truth(mut self, name: &Path, text: &str) -> Self {
         match parse_truth(name, text) {
@@ -178,6 +167,26 @@ impl Fruit {
         &self.file.ply.cloud
     }
 
+    /// Labels of the cloud's points that name the peduncle as it was found; `None` if the file's own labels name it,
+    /// or there is none.
+    pub fn labels_by_peduncle(&self) -> Option<Vec<i32>> {
+        let peduncle = self.peduncle.as_ref()?;
+        if peduncle.source == PeduncleSource::Label {
+            return None;
+        }
+        let cloud = self.cloud();
+        // Points that the file alone calls peduncle belong to the fruit.
+        let in_file = |i: usize| match cloud.labels().map(|labels| labels[i]) {
+            None | Some(Cloud::PEDUNCLE) => Cloud::FRUIT,
+            Some(other) => other,
+        };
+        let mut labels: Vec<i32> = (0..cloud.len()).map(in_file).collect();
+        for &i in &peduncle.in_cloud {
+            labels[i] = Cloud::PEDUNCLE;
+        }
+        Some(labels)
+    }
+
     /// The cloud without the peduncle's points; the whole cloud where there are none.
     pub fn body(&self) -> Cloud {
         match &self.peduncle {
@@ -187,24 +196,24 @@ impl Fruit {
     }
 }
 
-/// Where a cloud's peduncle would have a file of its own: `NAME_peduncle.ply` beside `NAME.ply`.
+/// The path of a cloud's separate peduncle file: `NAME_peduncle.ply` beside `NAME.ply`.
 pub fn companion_path(path: &Path) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_os_string();
     name.push("_peduncle.ply");
     path.with_file_name(name)
 }
 
-/// Where the simulator writes what it knows of a cloud: `NAME.truth.json` beside `NAME.ply`.
+/// The path of the simulator's truth about a cloud: `NAME.truth.json` beside `NAME.ply`.
 pub fn truth_path(path: &Path) -> PathBuf {
     path.with_extension("truth.json")
 }
 
-/// Where the cloud without its peduncle lies: the file of the same name in another folder.
+/// The path of the cloud without its peduncle: the file of the same name in another folder.
 pub fn removed_path(path: &Path, folder: &Path) -> PathBuf {
     folder.join(path.file_name().unwrap_or_default())
 }
 
-/// A truth file's content; `None` where there is no file, and a sentence where it cannot be used.
+/// The content of a truth file; `None` if there is no file. The error is a sentence.
 fn read_truth(path: &Path) -> Result<Option<Truth>, String> {
     let text = match std::fs::read_to_string(path) {
         Ok(text) => text,

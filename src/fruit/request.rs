@@ -1,36 +1,49 @@
-//! What is asked of a cloud, before anything is known of it.
+//! The settings of an analysis, independent of the cloud.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Fruit, PeduncleChoice};
-use crate::geometry::{Cloud, Unit};
-use crate::method::{NormalSource, Params};
+use crate::geometry::Unit;
+use crate::method::{NormalSource, Params, Preset};
 
-/// What to do with a cloud, before anything is known of it.
+/// The settings of an analysis, before anything is known of the cloud. [`Request::params`] completes them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Request {
-    /// The unit of its coordinates; `None` as the file states it, else guessed.
+    /// The unit of the coordinates; `None` for the one that the file states, or else a guess.
     pub unit: Option<Unit>,
-    /// Where its peduncle is.
+    /// The source of the peduncle.
     pub peduncle: PeduncleChoice,
     /// Whether the peduncle's points are left out of the analysis.
     pub without_peduncle: bool,
-    /// Where normals come from; `None` from the file where it has them.
+    /// The source of normals; `None` for the file's, or else an estimate.
     pub normals: Option<NormalSource>,
-    /// Everything else. Its unit and source of normals are not looked at.
+    /// All other parameters. Their unit and source of normals are replaced by [`Request::params`].
     pub params: Params,
 }
 
+impl Default for Request {
+    /// The paper as intended: unit, peduncle and normals as far as the files tell them.
+    fn default() -> Self {
+        Self {
+            unit: None,
+            peduncle: PeduncleChoice::Auto,
+            without_peduncle: false,
+            normals: None,
+            params: Params::new(Preset::AsIntended, Unit::Centimeter),
+        }
+    }
+}
+
 impl Request {
-    /// The parameters for this fruit: what was left open is settled.
+    /// The parameters for this fruit, with its unit and its source of normals.
     pub fn params(&self, fruit: &Fruit) -> Params {
-        let of_file = |cloud: &Cloud| match cloud.normals() {
+        let available = || match fruit.cloud().normals() {
             Some(_) => NormalSource::File,
             None => NormalSource::Estimate,
         };
         Params {
             unit: fruit.unit,
-            normals: self.normals.unwrap_or_else(|| of_file(fruit.cloud())),
+            normals: self.normals.unwrap_or_else(available),
             ..self.params.clone()
         }
     }

@@ -2,10 +2,10 @@
 
 use crate::geometry::{Cloud, Extent, Unit};
 
-/// Where a unit comes from.
+/// The source of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum UnitSource {
-    /// Somebody stated it: the file, or the user.
+    /// The file or the user stated it.
     Stated,
     /// It was guessed, as a fruit is some centimeters large.
     Guessed {
@@ -22,8 +22,8 @@ const SMALLEST_IN_MILLIMETERS: f64 = 25.3;
 /// Sizes in centimeters that a fruit, with its peduncle or without, may have.
 const PLAUSIBLE_CM: std::ops::RangeInclusive<f64> = 1.0..=60.0;
 
-/// The unit of a cloud: the stated one, or else a guess. Then a sentence for the user, if there is
-/// something to be warned of: that it is a guess, or that the fruit would be of an unlikely size.
+/// The unit of a cloud: the stated one, or else a guess. The third value is a warning, one or two sentences, that the unit
+/// is a guess or that the fruit would be of an unlikely size.
 pub fn resolve(cloud: &Cloud, stated: Option<Unit>) -> (Unit, UnitSource, Option<String>) {
     let extent = robust_extent(cloud);
     let unit = stated.unwrap_or_else(|| guess(extent));

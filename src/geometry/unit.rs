@@ -5,15 +5,19 @@ use serde::{Deserialize, Serialize};
 /// The unit that a file's coordinates are in. The method's distances are centimeters (Eq. 15: τ is
 /// in centimeters per radian), so every stage that adds a distance asks for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Unit {
     /// Meters, as most depth cameras' software writes.
     #[serde(rename = "m")]
+    #[cfg_attr(feature = "cli", value(name = "m", help = "Meters"))]
     Meter,
     /// Centimeters, as the paper uses.
     #[serde(rename = "cm")]
+    #[cfg_attr(feature = "cli", value(name = "cm", help = "Centimeters"))]
     Centimeter,
     /// Millimeters, as depth images hold.
     #[serde(rename = "mm")]
+    #[cfg_attr(feature = "cli", value(name = "mm", help = "Millimeters"))]
     Millimeter,
 }
 

@@ -13,10 +13,11 @@ pub const TAU_CM_PER_RAD: f64 = 3.0 / std::f64::consts::PI;
 
 /// Where the normals come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum NormalSource {
-    /// From each point's neighborhood (Eq. 2).
+    /// The plane fitted to each point's neighborhood (Eq. 2).
     Estimate,
-    /// From the file.
+    /// The file's own normals.
     File,
 }
 
@@ -66,6 +67,7 @@ impl Default for Filters {
 
 /// A reading of what the paper leaves open: the center's Eq. 3 and how scores are added up (§ 2.5).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Preset {
     /// Word for word: the RMS distance of Eq. 3, the sum of the scores, every plane in the running.
     AsPrinted,

@@ -7,6 +7,7 @@ use super::{PlaneTerm, PlaneTerms};
 /// How a plane's score is made of its points' scores S.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Aggregation {
     /// The mean over the points with a partner.
     Mean,

@@ -45,16 +45,16 @@ pub fn map_pieces<T: Send>(
     (0..pieces).map(one).collect()
 }
 
-/// Threads of one's own, beside those that everything else shares: what runs on them may wait without
-/// holding up anybody else.
+/// A pool of threads apart from the one that all other work shares: a job on it may wait without delaying
+/// that work.
 #[derive(Debug)]
-pub struct Crew {
+pub struct BackgroundPool {
     #[cfg(feature = "parallel")]
     pool: Option<rayon::ThreadPool>,
 }
 
-impl Crew {
-    /// As many threads as there are cores but one, at least one.
+impl BackgroundPool {
+    /// Creates a pool with one thread less than there are cores, but at least one.
     pub fn new() -> Self {
         #[cfg(feature = "parallel")]
         {
@@ -67,9 +67,9 @@ impl Crew {
         Self {}
     }
 
-    /// Runs `work` once on each of the threads, and waits for all; on the caller's where there are none.
-    /// What it does in parallel stays on these threads.
-    pub fn each(&self, work: impl Fn() + Sync) {
+    /// Runs `work` once on each thread and waits for all; on the caller's thread if there are none. Parallel
+    /// work within it stays in the pool.
+    pub fn broadcast(&self, work: impl Fn() + Sync) {
         #[cfg(feature = "parallel")]
         if let Some(pool) = &self.pool {
             pool.broadcast(|_| work());
@@ -78,9 +78,9 @@ impl Crew {
         work();
     }
 
-    /// Runs `work` on one of the threads, and what it does in parallel on all of them; on the caller's
-    /// where there are none.
-    pub fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+    /// Runs `work` on one thread, and parallel work within it on all of them; on the caller's thread if there
+    /// are none.
+    pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         #[cfg(feature = "parallel")]
         if let Some(pool) = &self.pool {
             return pool.install(work);
@@ -89,7 +89,7 @@ impl Crew {
     }
 }
 
-impl Default for Crew {
+impl Default for BackgroundPool {
     fn default() -> Self {
         Self::new()
     }

@@ -1,18 +1,18 @@
-//! A selection of points grows to its neighbors, and shrinks.
+//! Growing and shrinking of a selection of points.
 
 use crate::geometry::{Extent, PointSet};
 use crate::neighbors::Neighbors;
 use crate::parallel::{Cancelled, Watch, map_pieces};
 use glam::DVec3;
 
-/// Places that a spacing is measured at.
+/// The number of places at which a spacing is measured.
 const SAMPLES: usize = 2000;
 
-/// Points that are asked at a time.
+/// The number of queries of one piece of work.
 const PIECE: usize = 4096;
 
-/// The median distance from a point to the nearest other one, in the points' unit; `None` where fewer
-/// than two are apart.
+/// The median distance from a point to its nearest neighbor at another place, in the points' unit; `None` if all points
+/// are at one place.
 pub fn median_spacing(points: &[DVec3]) -> Option<f64> {
     let index = Neighbors::new(points)?;
     let two = const { std::num::NonZeroUsize::new(2).expect("it is two") };
@@ -37,7 +37,7 @@ pub fn median_spacing(points: &[DVec3]) -> Option<f64> {
 /// The selected points and all that lie within `reach` of one of them, in the points' unit.
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
+/// Returns [`Cancelled`] if the watch calls the work off.
 pub fn grown(
     points: &[DVec3],
     selected: &PointSet,
@@ -52,7 +52,7 @@ pub fn grown(
 /// The selected points without those that lie within `reach` of one that is not selected.
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
+/// Returns [`Cancelled`] if the watch calls the work off.
 pub fn shrunk(
     points: &[DVec3],
     selected: &PointSet,

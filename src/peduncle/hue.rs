@@ -1,13 +1,13 @@
-//! Hues: what tells a green peduncle from a red or yellow fruit.
+//! Hues, which tell a green peduncle from a red or yellow fruit.
 
 use serde::{Deserialize, Serialize};
 
 /// A range of hues in degrees, 0 to 360; it may run through 0, as 350 to 20 does.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HueRange {
-    /// Where it begins.
+    /// The first hue.
     pub from_deg: f64,
-    /// Where it ends, inclusive.
+    /// The last hue, inclusive.
     pub to_deg: f64,
 }
 

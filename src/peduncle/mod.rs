@@ -1,4 +1,4 @@
-//! The points that are the peduncle, and the two references that they give.
+//! The peduncle's points, and the two reference axes that follow from them.
 
 mod grow;
 mod hue;

@@ -1,4 +1,4 @@
-//! The peduncle, and the reference axis that it gives (§ 3.2).
+//! The peduncle and its reference axes (§ 3.2).
 
 use super::{HueRange, hue_deg};
 use crate::geometry::{Cloud, Extent, PointSet, Spread};
@@ -6,14 +6,14 @@ use crate::method::{AxisEstimate, AxisSource};
 use crate::neighbors::Neighbors;
 use glam::DVec3;
 
-/// How a cloud's peduncle was told from its body.
+/// The way in which a cloud's peduncle was told from its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PeduncleSource {
     /// By the file's labels: [`Cloud::PEDUNCLE`].
     Label,
-    /// By a file of its own.
+    /// By a separate file.
     Companion,
-    /// By the same cloud without it.
+    /// By comparison with the same cloud without it.
     Removal,
     /// By color.
     Hue(HueRange),
@@ -21,7 +21,7 @@ pub enum PeduncleSource {
     Picked,
 }
 
-/// Why a cloud's peduncle was not found as asked.
+/// The reason why a cloud's peduncle was not found.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum PeduncleError {
     /// There are no labels.
@@ -94,19 +94,19 @@ pub enum PeduncleError {
     },
 }
 
-/// A fruit's peduncle: where its points are, and which of the cloud's points belong to it.
+/// A fruit's peduncle: the distribution of its points, and the cloud's points that belong to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Peduncle {
-    /// How it was found.
+    /// The way in which it was found.
     pub source: PeduncleSource,
     /// The mean of its points, in the cloud's unit and frame.
     pub mean: DVec3,
-    /// How they are spread about it.
+    /// The spread of its points about the mean.
     pub spread: Spread,
-    /// How many points it has.
+    /// The number of its points.
     pub points: usize,
-    /// The indices of the cloud's points that belong to it, ascending. Empty where the peduncle has a
-    /// file of its own and the cloud is the body alone.
+    /// The indices of the cloud's points that belong to it, ascending. Empty if the peduncle has a separate file and the
+    /// cloud is the body alone.
     pub in_cloud: Vec<usize>,
 }
 
@@ -114,7 +114,7 @@ impl Peduncle {
     /// The points labeled [`Cloud::PEDUNCLE`].
     ///
     /// # Errors
-    /// Where there are no labels, or none of them is the peduncle's.
+    /// Returns an error if there are no labels, or none of them is the peduncle's.
     pub fn by_label(cloud: &Cloud) -> Result<Self, PeduncleError> {
         let labels = cloud.labels().ok_or(PeduncleError::NoLabels)?;
         Self::of_points(cloud, PeduncleSource::Label, |i| labels[i] == Cloud::PEDUNCLE)
@@ -124,7 +124,7 @@ impl Peduncle {
     /// The points whose color has a hue in `range`.
     ///
     /// # Errors
-    /// Where there are no colors, or none in the range.
+    /// Returns an error if there are no colors, or none in the range.
     pub fn by_hue(cloud: &Cloud, range: HueRange) -> Result<Self, PeduncleError> {
         let colors = cloud.colors().ok_or(PeduncleError::NoColors)?;
         let is_peduncle = |i: usize| hue_deg(colors[i]).is_some_and(|hue| range.contains(hue));
@@ -132,11 +132,11 @@ impl Peduncle {
             .ok_or(PeduncleError::NoneOfHue { range })
     }
 
-    /// The points of a file of its own, in the cloud's unit and frame. The cloud's points that
+    /// The points of a separate file, in the cloud's unit and frame. The cloud's points that
     /// coincide with one of them, to a ten-thousandth of the cloud's size, belong to it.
     ///
     /// # Errors
-    /// Where the companion has no points.
+    /// Returns an error if the companion has no points.
     pub fn by_companion(cloud: &Cloud, companion: &Cloud) -> Result<Self, PeduncleError> {
         let points = companion.positions();
         let index = Neighbors::new(points).ok_or(PeduncleError::EmptyCompanion)?;
@@ -155,12 +155,12 @@ impl Peduncle {
     }
 
     /// The points that are missing in `body`, the same cloud without its peduncle (§ 2.1), in the same unit
-    /// and frame. A point is missing where none of the body's coincides with it, to a ten-thousandth of the
+    /// and frame. A point is missing if none of the body's coincides with it, to a ten-thousandth of the
     /// cloud's size.
     ///
     /// # Errors
-    /// Where none is missing, or where half of either cloud's points or more are not in the other: then
-    /// these are two clouds, or one of them was filtered anew.
+    /// Returns an error if no point is missing, or if half of either cloud's points or more are not in the other: then
+    /// these are two clouds, or one of them was filtered again.
     pub fn by_removal(cloud: &Cloud, body: &Cloud) -> Result<Self, PeduncleError> {
         let size = Extent::robust(cloud.positions()).map_or(0.0, |e| e.size().length());
         let near = (1e-4 * size).powi(2);
@@ -184,10 +184,10 @@ impl Peduncle {
         Ok(removed)
     }
 
-    /// The points that somebody picked. `None` where these are none: then there is no peduncle.
+    /// The points that were picked by hand; `None` for an empty selection.
     ///
     /// # Errors
-    /// Where one of them is not the cloud's.
+    /// Returns an error if one of them is not the cloud's.
     pub fn by_points(cloud: &Cloud, picked: &PointSet) -> Result<Option<Self>, PeduncleError> {
         if let Some(index) = picked.iter().find(|&i| i >= cloud.len()) {
             let points = cloud.len();
@@ -228,7 +228,7 @@ impl Peduncle {
     /// The reference axis of § 3.2: from the fruit center through the mean of the peduncle's points.
     ///
     /// # Errors
-    /// Where these are one point.
+    /// Returns an error if center and mean coincide.
     pub fn reference_axis(&self, center: DVec3) -> Result<AxisEstimate, PeduncleError> {
         let direction = (self.mean - center)
             .try_normalize()
@@ -241,12 +241,12 @@ impl Peduncle {
         })
     }
 
-    /// The fewest points that a direction is fitted to: of fewer it is their noise's.
+    /// The fewest points that a direction is fitted to: with fewer, noise decides.
     pub const LEAST_FOR_DIRECTION: usize = 10;
 
-    /// How far the points must be spread along their direction, in multiples of their spread across it.
-    /// A tube that is as long as it is wide has none, and the half of a stump that a camera sees is spread
-    /// up to about twice as far across as it is deep.
+    /// The least spread of the points along their direction, in multiples of their spread across it. A tube that is as
+    /// long as wide has no direction, and the half of a stump that a camera sees is spread up to about twice as far
+    /// across as it is deep.
     pub const LEAST_ELONGATION: f64 = 2.0;
 
     /// The standard deviation of the points along the direction of their greatest spread, in multiples
@@ -261,7 +261,7 @@ impl Peduncle {
     /// otherwise, so it tells apart a method that failed from a center that is off.
     ///
     /// # Errors
-    /// Where there are fewer than [`Peduncle::LEAST_FOR_DIRECTION`] points, or they are spread less than
+    /// Returns an error if there are fewer than [`Peduncle::LEAST_FOR_DIRECTION`] points, or if they are spread less than
     /// [`Peduncle::LEAST_ELONGATION`] times as far along as across.
     pub fn direction_axis(&self, center: DVec3) -> Result<AxisEstimate, PeduncleError> {
         if self.points < Self::LEAST_FOR_DIRECTION {

@@ -1,7 +1,7 @@
 //! The body of an ASCII PLY file.
 //!
-//! A row stands on a line. Some programs wrap their rows over lines and others read them so; a file
-//! whose lines do not fit is read word by word, if that comes out even to the last word.
+//! A row takes one line. Some programs wrap rows over several lines; a file whose lines do not fit is therefore read
+//! again word by word, and accepted if its words come out even.
 
 use super::Note;
 use super::collect::{BLOCK, Collector};
@@ -10,8 +10,7 @@ use super::error::{PlyError, Problem, quoted};
 use super::header::{Element, Header, Kind, line_of};
 use super::number::{is_space, number, word};
 
-/// Reads the vertices into the collector, and looks at what stands around them only as far as it
-/// takes to step over it.
+/// Reads the vertices into the collector and steps over everything else.
 pub(super) fn read(
     bytes: &[u8],
     header: &Header,
@@ -47,7 +46,7 @@ struct Body<'a> {
     bytes: &'a [u8],
 }
 
-/// What a property's word is to a reader of rows.
+/// The treatment of one property's word within a row.
 #[derive(Clone, Copy)]
 enum Step {
     Skip,
@@ -56,7 +55,7 @@ enum Step {
 }
 
 impl Body<'_> {
-    /// Reads all up to the vertices, a row a line, and returns where they end.
+    /// Reads everything up to the vertices, one row per line, and returns their end.
     fn lines(
         &self,
         header: &Header,
@@ -74,8 +73,8 @@ impl Body<'_> {
         Ok(at)
     }
 
-    /// Reads all elements word by word, wherever lines end. Whether that took all words there are, no
-    /// fewer and no more. Fails only where it is called off.
+    /// Reads all elements word by word, regardless of line ends, and returns whether that consumed exactly the words of
+    /// the file. Fails only if it is called off.
     fn comes_out_even(
         &self,
         header: &Header,
@@ -94,7 +93,7 @@ impl Body<'_> {
         }
     }
 
-    /// Tells of what stands after the vertices where a glance shows that it is too short or too long.
+    /// Notes that the elements after the vertices are obviously too short or too long.
     fn note_the_rest(&self, at: usize, header: &Header, vertex: &Element, notes: &mut Vec<Note>) {
         let rest = self.from(at).trim_ascii().len();
         let after = header
@@ -127,8 +126,7 @@ impl Body<'_> {
         self.bytes.get(at..).unwrap_or_default()
     }
 
-    /// Reads an element that starts at `at` and returns where it ends. With `BY_LINE` a row ends where
-    /// its line does.
+    /// Reads an element that starts at `at` and returns its end. With `BY_LINE` a row ends with its line.
     fn rows<const BY_LINE: bool>(
         &self,
         mut at: usize,
@@ -157,7 +155,7 @@ impl Body<'_> {
                 };
                 match self.bytes.get(at) {
                     None => {
-                        let error = Problem::ends_early(element, row);
+                        let error = element.ends_early(row);
                         return Err(PlyError::at_line(line_of(self.bytes, at), error));
                     }
                     Some(b'\n' | b'\r') => return Err(self.row_length(start, element)),
@@ -198,7 +196,7 @@ impl Body<'_> {
         Ok(at)
     }
 
-    /// Steps over a list whose count stands at `at`, and returns where it ends.
+    /// Steps over a list whose count is at `at`, and returns its end.
     fn skip_list<const BY_LINE: bool>(
         &self,
         at: usize,
@@ -219,7 +217,7 @@ impl Body<'_> {
             at = self.skip_space(at, BY_LINE);
             match self.bytes.get(at) {
                 None => {
-                    let problem = Problem::ends_early(element, row);
+                    let problem = element.ends_early(row);
                     return Err(PlyError::at_line(line_of(self.bytes, at), problem));
                 }
                 Some(b'\n' | b'\r') => return Err(self.row_length(start, element)),
@@ -229,7 +227,7 @@ impl Body<'_> {
         Ok(at)
     }
 
-    /// Where the white space ends that starts at `at`, perhaps at once.
+    /// The end of the white space at `at`, which may be empty.
     #[inline]
     fn skip_space(&self, mut at: usize, within_line: bool) -> usize {
         while let Some(&byte) = self.bytes.get(at) {

@@ -1,14 +1,15 @@
 //! The body of a binary PLY file, of either byte order.
 
+use half::f16;
+
 use super::Note;
 use super::collect::{BLOCK, Collector};
 use super::columns::{Columns, Role};
 use super::error::{PlyError, Problem, quoted};
 use super::header::{Element, Header, Kind};
-use super::scalar::{FromBytes, Half, Scalar, value};
+use super::scalar::{FromBytes, Scalar, value};
 
-/// Reads the vertices into the collector, and looks at what stands around them only as far as it
-/// takes to step over it.
+/// Reads the vertices into the collector and steps over everything else.
 pub(super) fn read<const BIG_ENDIAN: bool>(
     bytes: &[u8],
     header: &Header,
@@ -48,7 +49,7 @@ struct Body<'a, const BIG_ENDIAN: bool> {
 }
 
 impl<const BIG_ENDIAN: bool> Body<'_, BIG_ENDIAN> {
-    /// Where an element ends that starts at `at`.
+    /// The end of an element that starts at `at`.
     fn skip(&self, at: usize, element: &Element) -> Result<usize, PlyError> {
         if element.has_lists() {
             self.rows_with_lists(at, element, None)
@@ -81,7 +82,7 @@ impl<const BIG_ENDIAN: bool> Body<'_, BIG_ENDIAN> {
     }
 
     fn ends_early(&self, element: &Element, complete: u64) -> PlyError {
-        PlyError::at_byte(self.bytes.len(), Problem::ends_early(element, complete))
+        PlyError::at_byte(self.bytes.len(), element.ends_early(complete))
     }
 
     /// All rows of an element that has no lists. One without properties takes no bytes, whatever its
@@ -182,7 +183,7 @@ fn collect_fixed<const BIG_ENDIAN: bool>(
                 Scalar::U32 => decode::<u32, 4, BIG_ENDIAN>(from, stride, out),
                 Scalar::I64 => decode::<i64, 8, BIG_ENDIAN>(from, stride, out),
                 Scalar::U64 => decode::<u64, 8, BIG_ENDIAN>(from, stride, out),
-                Scalar::F16 => decode::<Half, 2, BIG_ENDIAN>(from, stride, out),
+                Scalar::F16 => decode::<f16, 2, BIG_ENDIAN>(from, stride, out),
                 Scalar::F32 => decode::<f32, 4, BIG_ENDIAN>(from, stride, out),
                 Scalar::F64 => decode::<f64, 8, BIG_ENDIAN>(from, stride, out),
             }

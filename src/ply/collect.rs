@@ -1,4 +1,4 @@
-//! Rows of numbers become a cloud: the one place where values get their meaning.
+//! The conversion of rows of numbers to a cloud.
 
 use glam::{DVec3, Vec3};
 
@@ -9,11 +9,11 @@ use super::scalar::Scalar;
 use crate::geometry::Cloud;
 use crate::parallel::Watch;
 
-/// Rows that are decoded before they are sorted into the cloud: few enough for all columns of a
-/// block to stay in the fastest cache.
+/// The number of rows that are decoded before they are appended to the cloud: few enough for all columns of a block to
+/// stay in the fastest cache.
 pub(super) const BLOCK: usize = 128;
 
-/// Blocks between two looks at the watch: a millisecond at most.
+/// The number of blocks between two questions to the watch: a millisecond at most.
 const LOOK: usize = 32;
 
 /// The label of a point whose label cannot be used.
@@ -71,7 +71,7 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// Makes room for so many rows at once. The caller knows that the file can hold them.
+    /// Reserves memory for so many rows. The caller knows that the file can hold them.
     pub(super) fn reserve(&mut self, rows: usize) {
         self.positions.reserve(rows);
         if let Some(normals) = &mut self.normals {
@@ -85,13 +85,13 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// Where the next rows are put before [`Collector::take`].
+    /// The block to be filled with the next rows before [`Collector::take`].
     #[inline]
     pub(super) fn block(&mut self) -> &mut Block {
         &mut self.block
     }
 
-    /// An empty one for the same rows.
+    /// A new, empty collector for the same rows.
     pub(super) fn afresh(&self, columns: &Columns) -> Self {
         let rows = self.expected.saturating_mul(BLOCK) as u64;
         Self::new(columns, rows, self.watch)
@@ -100,7 +100,7 @@ impl<'a> Collector<'a> {
     /// Takes the first `rows` rows of the block, at most [`BLOCK`].
     ///
     /// # Errors
-    /// Now and then, [`Problem::Cancelled`] where the watch calls the work off.
+    /// Returns [`Problem::Cancelled`] if the watch calls the work off.
     pub(super) fn take(&mut self, rows: usize) -> Result<(), PlyError> {
         self.taken += 1;
         if self.taken % LOOK == 1 {
@@ -178,7 +178,7 @@ impl<'a> Collector<'a> {
     }
 }
 
-/// Appends the values that are kept: all of them where nothing is said.
+/// Appends the values that are kept; `None` keeps all of them.
 fn extend<T>(column: &mut Vec<T>, values: impl Iterator<Item = T>, kept: Option<&[bool]>) {
     match kept {
         None => column.extend(values),
@@ -192,8 +192,7 @@ fn extend<T>(column: &mut Vec<T>, values: impl Iterator<Item = T>, kept: Option<
     }
 }
 
-/// Colors on their way to 0–255. Unless all are bytes, what scale they are on is known only when
-/// all have been seen.
+/// Colors to be converted to 0–255. Unless all are bytes, their scale is known only after the last row.
 enum Colors {
     Bytes(Vec<[u8; 4]>),
     Scaled {
@@ -202,7 +201,7 @@ enum Colors {
     },
 }
 
-/// How the values of a channel are spread.
+/// The range of a channel's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Scale {
     /// 0 to 255, being bytes.

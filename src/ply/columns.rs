@@ -1,11 +1,11 @@
-//! Which property means what.
+//! The meaning of each property of a vertex.
 
 use super::Note;
 use super::error::{PlyError, Problem};
 use super::header::{Element, Kind};
 use super::scalar::Scalar;
 
-/// What a property of a vertex is to us. The discriminants index the rows of a block.
+/// The role of a vertex's property in a cloud. The discriminants index the columns of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
     X,
@@ -22,11 +22,11 @@ pub(super) enum Role {
 }
 
 impl Role {
-    /// How many roles there are.
+    /// The number of roles.
     pub(super) const COUNT: usize = Self::Label as usize + 1;
-    /// The position, a role an axis.
+    /// The position, one role per axis.
     pub(super) const POSITION: [Self; 3] = [Self::X, Self::Y, Self::Z];
-    /// The normal, a role an axis.
+    /// The normal, one role per axis.
     pub(super) const NORMAL: [Self; 3] = [Self::NormalX, Self::NormalY, Self::NormalZ];
     /// The color without its alpha.
     pub(super) const COLOR: [Self; 3] = [Self::Red, Self::Green, Self::Blue];
@@ -36,8 +36,7 @@ impl Role {
 struct Family {
     names: [&'static str; 3],
     alpha: Option<&'static str>,
-    /// With how many of the names it is worth telling that the others are missing: a lone `r` is
-    /// likely to be a radius.
+    /// The number of present names from which on a note tells of the missing ones: a lone `r` is likely a radius.
     telling: usize,
 }
 

@@ -1,13 +1,11 @@
-//! Why a PLY file cannot be read, and where in it that shows.
+//! The errors of the PLY reader, with their place in the file.
 
 use std::fmt;
 
-use super::header::Element;
-
-/// Where in the file something is wrong.
+/// The place of an error in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
-    /// Everywhere or nowhere: the file as a whole is not what it should be.
+    /// The file as a whole.
     File,
     /// A line of the header or of an ASCII body, counted from 1.
     Line(usize),
@@ -32,9 +30,9 @@ impl fmt::Display for Place {
     place => format!("{place}: "),
 })]
 pub struct PlyError {
-    /// Where.
+    /// The place of the error.
     pub place: Place,
-    /// What.
+    /// The error.
     pub problem: Problem,
 }
 
@@ -61,7 +59,7 @@ impl PlyError {
     }
 }
 
-/// What is wrong with a PLY file. Text from the file stands in these escaped and shortened.
+/// A defect of a PLY file. Texts from the file are escaped and shortened.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
@@ -71,13 +69,13 @@ pub enum Problem {
     /// The first word is not `ply`.
     #[error("this is not a PLY file (its first word must be \"ply\")")]
     NotPly,
-    /// The first bytes tell of some other format.
+    /// The first bytes are those of some other format.
     #[error("this is not a PLY file but {0}")]
     OtherFormat(&'static str),
     /// No `end_header` line, or none within the bytes that a header may take.
     #[error("the header has no \"end_header\" line within the first {searched} bytes")]
     NoEndHeader {
-        /// How many bytes were searched.
+        /// The number of bytes that were searched.
         searched: usize,
     },
     /// No `format` line.
@@ -92,9 +90,9 @@ pub enum Problem {
     /// A header line with too few or too many words.
     #[error("{found} words where \"{form}\" is expected")]
     Malformed {
-        /// What the line should look like.
+        /// The expected form of the line.
         form: &'static str,
-        /// How many words it has.
+        /// The number of its words.
         found: usize,
     },
     /// A count of an element that is not a whole number, or too large for 64 bits.
@@ -114,7 +112,7 @@ pub enum Problem {
     DuplicateElement {
         /// The name.
         name: String,
-        /// Where it was declared first.
+        /// The line of the first declaration.
         first_line: usize,
     },
     /// Two properties of one name in one element.
@@ -122,7 +120,7 @@ pub enum Problem {
     DuplicateProperty {
         /// The name.
         name: String,
-        /// Where it was declared first.
+        /// The line of the first declaration.
         first_line: usize,
     },
     /// No vertex element.
@@ -139,9 +137,9 @@ pub enum Problem {
     EndsEarly {
         /// The name of the element that is cut short, quoted.
         element: String,
-        /// How many of its rows are there.
+        /// The number of its complete rows.
         complete: u64,
-        /// How many the header tells of.
+        /// The number of its rows by the header.
         count: u64,
     },
     /// A list with a count below zero.
@@ -159,11 +157,11 @@ pub enum Problem {
     /// A row with too few or too many numbers.
     #[error("{found} numbers where {}{expected} are expected", if *.at_least { "at least " } else { "" })]
     RowLength {
-        /// How many stand on the line.
+        /// The count of numbers on the line.
         found: usize,
-        /// How many the header tells of.
+        /// The count by the header.
         expected: usize,
-        /// Whether the row has lists, which may add to what is expected.
+        /// Whether the row has lists, which may add to the expected count.
         at_least: bool,
     },
     /// Reading was called off; nothing is wrong.
@@ -171,17 +169,7 @@ pub enum Problem {
     Cancelled,
 }
 
-impl Problem {
-    pub(super) fn ends_early(element: &Element, complete: u64) -> Self {
-        Self::EndsEarly {
-            element: quoted(element.name.as_bytes()),
-            complete,
-            count: element.count,
-        }
-    }
-}
-
-/// A word from the file as it may stand in a message: quoted, escaped, on one line, not too long.
+/// A word from the file for a message: quoted, escaped, on one line, not too long.
 pub(super) fn quoted(word: &[u8]) -> String {
     const LONGEST: usize = 40;
     let text = text(word);

@@ -7,11 +7,11 @@ use super::scalar::Scalar;
 use super::{Encoding, Note};
 use crate::geometry::Unit;
 
-/// What a header may take. Real ones have some hundred bytes; a binary file that lost its
-/// `end_header` is not searched to its end.
+/// The most bytes of a header. Real ones have some hundred; a binary file that lost its `end_header` is not searched
+/// to its end.
 const LONGEST_HEADER: usize = 1 << 20;
 
-/// How a property stands in a row.
+/// The layout of a property within a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Scalar(Scalar),
@@ -27,9 +27,9 @@ pub(super) struct Property {
 #[derive(Debug)]
 pub(super) struct Element {
     pub(super) name: String,
-    /// Where it is declared.
+    /// The line of its declaration, counted from 1.
     pub(super) line: usize,
-    /// How many rows it has: the file's word, not to be trusted.
+    /// The number of its rows by the header, which may be wrong.
     pub(super) count: u64,
     pub(super) properties: Vec<Property>,
 }
@@ -41,7 +41,16 @@ impl Element {
             .any(|p| matches!(p.kind, Kind::List { .. }))
     }
 
-    /// The least a row takes in binary, in bytes: all it takes where there are no lists.
+    /// The problem of a file that ends after `complete` rows of this element.
+    pub(super) fn ends_early(&self, complete: u64) -> Problem {
+        Problem::EndsEarly {
+            element: quoted(self.name.as_bytes()),
+            complete,
+            count: self.count,
+        }
+    }
+
+    /// The least size of a row in binary, in bytes: its exact size if it has no lists.
     pub(super) fn least_stride(&self) -> usize {
         let sizes = self.properties.iter().map(|property| match property.kind {
             Kind::Scalar(scalar) => scalar.size(),
@@ -51,14 +60,14 @@ impl Element {
     }
 }
 
-/// A header, and where the body starts.
+/// A header and the offset of the body.
 #[derive(Debug)]
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
     pub(super) stated_unit: Option<Unit>,
     pub(super) notes: Vec<Note>,
-    /// Where the body starts, in bytes from the start of the file.
+    /// The offset of the body in bytes from the start of the file.
     pub(super) body: usize,
     /// The line of `end_header`.
     last_line: usize,
@@ -114,9 +123,8 @@ pub(super) fn line_of(bytes: &[u8], at: usize) -> usize {
     1 + bytes.iter().take(at).filter(|&&byte| byte == end).count()
 }
 
-/// The byte that ends a line, decided by the first one. A file with `\r\n` counts by its `\n`; only
-/// where `\r` stands alone does it end a line, or else a binary body that starts with the value 10
-/// or 13 would lose a byte to the header.
+/// The byte that ends a line, decided by the first line. In a file with `\r\n` that is `\n`; `\r` ends a line only if
+/// it stands alone. Otherwise a binary body that starts with the value 10 or 13 would lose a byte to the header.
 fn line_end(bytes: &[u8]) -> u8 {
     let first = bytes.iter().position(|byte| matches!(byte, b'\r' | b'\n'));
     match first.and_then(|at| bytes.get(at..)) {
@@ -130,9 +138,9 @@ fn line_end(bytes: &[u8]) -> u8 {
 struct Lines<'a> {
     bytes: &'a [u8],
     end: u8,
-    /// Where the next line starts.
+    /// The offset of the next line.
     at: usize,
-    /// The number of the line that was handed out last, counted from 1.
+    /// The number of the last line that was returned, counted from 1.
     line: usize,
 }
 
@@ -156,7 +164,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// What bytes are that do not start with `ply`.
+/// The problem of bytes that do not start with `ply`.
 fn other_format(bytes: &[u8]) -> Problem {
     match bytes {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Problem::OtherFormat("UTF-16 text"),

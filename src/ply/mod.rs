@@ -1,12 +1,10 @@
-//! PLY: one point cloud from the bytes of a file, and back.
+//! A reader and a writer of PLY point clouds, from bytes and to bytes.
 //!
-//! Every file that describes points is read, whatever it holds besides: elements and properties of
-//! no use here are skipped. What is malformed is refused with the line or the byte where it shows;
-//! what is merely unusual is read, and told in [`PlyCloud::notes`].
+//! The reader accepts every file that describes points and skips all other elements and properties. A malformed file
+//! gives an error with its line or byte; a merely unusual file is read, and [`PlyCloud::notes`] tells of it.
 //!
-//! Reading keeps these promises for any bytes at all: no panic, time proportional to the file's
-//! size, and memory of a small multiple of it, because nothing is allocated that the remaining
-//! bytes cannot fill.
+//! For any bytes at all the reader does not panic, takes time proportional to the file's size, and memory of a small
+//! multiple of it: nothing is allocated that the remaining bytes cannot fill.
 
 mod ascii;
 mod binary;
@@ -29,18 +27,18 @@ use collect::Collector;
 use columns::Columns;
 use header::Header;
 
-/// What a PLY file says about its points.
+/// The points of a PLY file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlyCloud {
     /// The points whose position is finite, in the file's order, unit and frame. A normal that is not
     /// finite is the zero vector ("none").
     pub cloud: Cloud,
-    /// How many points were left out because x, y or z is infinite or no number.
+    /// The number of points that were left out since x, y or z is infinite or no number.
     pub dropped_not_finite: usize,
     /// The unit that a `comment unit m` (or `cm`, `mm`) in the header states. This is our own
     /// convention: PLY has none.
     pub stated_unit: Option<Unit>,
-    /// What was unusual about the file, each a short sentence when displayed.
+    /// The peculiarities of the file, each a short sentence when displayed.
     pub notes: Vec<Note>,
 }
 
@@ -71,17 +69,17 @@ pub struct PlyCloud {
 /// ```
 ///
 /// # Errors
-/// Where the bytes are no PLY file, its header is malformed or has no vertices with x, y and z, or
-/// its body is malformed or ends before the last vertex.
+/// Returns an error if the bytes are no PLY file, if the header is malformed or has no vertices with x, y and z, or if
+/// the body is malformed or ends before the last vertex.
 pub fn read(bytes: &[u8]) -> Result<PlyCloud, PlyError> {
     read_watched(bytes, &())
 }
 
-/// As [`read`], telling `watch` how many of the file's rows of points are read, in any unit.
+/// [`read`] with its progress reported to `watch`.
 ///
 /// # Errors
-/// As [`read`]; and [`Problem::Cancelled`] where the watch calls the work off, which it is asked
-/// every few thousand rows.
+/// Returns the errors of [`read`], and [`Problem::Cancelled`] if the watch calls the work off. It is asked every few
+/// thousand rows.
 pub fn read_watched(bytes: &[u8], watch: &dyn Watch) -> Result<PlyCloud, PlyError> {
     let mut header = Header::parse(bytes)?;
     let mut notes = std::mem::take(&mut header.notes);

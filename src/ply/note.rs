@@ -1,4 +1,4 @@
-//! What is unusual about a PLY file that could be read all the same.
+//! Peculiarities of a PLY file that could be read all the same.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ pub enum Note {
     UnknownHeaderLines {
         /// The first of them, counted from 1.
         first_line: usize,
-        /// How many.
+        /// Their number.
         count: usize,
     },
     /// A version other than 1.0, or none; the file was read as 1.0.
@@ -22,7 +22,7 @@ pub enum Note {
     UnknownUnit {
         /// The line, counted from 1.
         line: usize,
-        /// What it says.
+        /// The stated unit, quoted.
         unit: String,
     },
     /// Two comments state different units; both were ignored.
@@ -32,14 +32,14 @@ pub enum Note {
     },
     /// Some but not all properties of a column are there; the column was ignored.
     Incomplete {
-        /// What the column would have been.
+        /// The name of the column.
         column: &'static str,
         /// The first property that is missing or is a list.
         missing: &'static str,
     },
     /// Labels that are no numbers, or too large; they were read as −1.
     UnusableLabels {
-        /// How many.
+        /// Their number.
         count: usize,
     },
     /// The rows of an ASCII file do not stand a line each; it was read word by word.
@@ -54,7 +54,7 @@ pub enum Note {
     },
     /// Something follows the last element.
     Trailing {
-        /// How many bytes, white space around them apart.
+        /// The number of bytes, without white space around them.
         bytes: usize,
     },
 }

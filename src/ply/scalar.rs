@@ -1,5 +1,7 @@
 //! The scalar types of PLY, and their values in binary.
 
+use half::f16;
+
 /// A scalar type of a property, a list's count or a list's items.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Scalar {
@@ -53,12 +55,12 @@ impl Scalar {
     }
 }
 
-/// Values that stand in a file as some bytes, least significant first unless turned around.
+/// A scalar of `SIZE` bytes in a binary file.
 pub(super) trait FromBytes<const SIZE: usize> {
     fn from_bytes(bytes: [u8; SIZE], big_endian: bool) -> f64;
 }
 
-/// A type whose values become an `f64` (without loss, 64-bit integers apart: no column needs more).
+// The conversion to `f64` loses nothing, except of 64-bit integers: no column needs more.
 macro_rules! from_bytes {
     ($($kind:ty, $size:literal, $to_f64:expr;)*) => {$(
         impl FromBytes<$size> for $kind {
@@ -80,33 +82,12 @@ from_bytes! {
     u32, 4, f64::from;
     i64, 8, |value| value as f64;
     u64, 8, |value| value as f64;
+    f16, 2, f64::from;
     f32, 4, f64::from;
     f64, 8, |value| value;
 }
 
-/// A half float: a sign, 5 bits of exponent with bias 15, 10 bits of fraction.
-pub(super) struct Half;
-
-impl FromBytes<2> for Half {
-    #[inline]
-    fn from_bytes(bytes: [u8; 2], big_endian: bool) -> f64 {
-        let bits = if big_endian {
-            u16::from_be_bytes(bytes)
-        } else {
-            u16::from_le_bytes(bytes)
-        };
-        let fraction = f64::from(bits & 0x3ff);
-        let size = match (bits >> 10) & 0x1f {
-            0 => fraction * 2f64.powi(-24),
-            31 if fraction == 0.0 => f64::INFINITY,
-            31 => f64::NAN,
-            exponent => (1024.0 + fraction) * 2f64.powi(i32::from(exponent) - 25),
-        };
-        if bits >> 15 == 1 { -size } else { size }
-    }
-}
-
-/// The value at the start of `bytes`; `None` where they are too few.
+/// The value at the start of `bytes`; `None` if they are too few.
 pub(super) fn value(kind: Scalar, bytes: &[u8], big_endian: bool) -> Option<f64> {
     fn one<T: FromBytes<N>, const N: usize>(bytes: &[u8], big_endian: bool) -> Option<f64> {
         Some(T::from_bytes(*bytes.first_chunk::<N>()?, big_endian))
@@ -120,7 +101,7 @@ pub(super) fn value(kind: Scalar, bytes: &[u8], big_endian: bool) -> Option<f64>
         Scalar::U32 => one::<u32, 4>,
         Scalar::I64 => one::<i64, 8>,
         Scalar::U64 => one::<u64, 8>,
-        Scalar::F16 => one::<Half, 2>,
+        Scalar::F16 => one::<f16, 2>,
         Scalar::F32 => one::<f32, 4>,
         Scalar::F64 => one::<f64, 8>,
     };
@@ -129,7 +110,7 @@ pub(super) fn value(kind: Scalar, bytes: &[u8], big_endian: bool) -> Option<f64>
 
 #[cfg(test)]
 mod tests {
-    use super::{FromBytes, Half, Scalar, value};
+    use super::{Scalar, value};
 
     #[test]
     fn half_floats_have_their_ieee_values() {
@@ -145,15 +126,13 @@ mod tests {
             (0x7c00, f64::INFINITY),
             (0xfc00, f64::NEG_INFINITY),
         ];
+        let read = |bytes: [u8; 2], big_endian| value(Scalar::F16, &bytes, big_endian).map(f64::to_bits);
         for (bits, expected) in cases {
-            let read = Half::from_bytes(u16::to_le_bytes(bits), false);
-            assert_eq!(read.to_bits(), f64::to_bits(expected), "{bits:#06x}: {read}");
-            assert_eq!(
-                read.to_bits(),
-                Half::from_bytes(u16::to_be_bytes(bits), true).to_bits()
-            );
+            for (bytes, big_endian) in [(u16::to_le_bytes(bits), false), (u16::to_be_bytes(bits), true)] {
+                assert_eq!(read(bytes, big_endian), Some(expected.to_bits()), "{bits:#06x}");
+            }
         }
-        assert!(Half::from_bytes(u16::to_le_bytes(0x7e00), false).is_nan());
+        assert!(value(Scalar::F16, &[0x00, 0x7e], false).is_some_and(f64::is_nan));
     }
 
     #[test]

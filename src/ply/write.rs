@@ -1,4 +1,4 @@
-//! A cloud becomes a PLY file.
+//! The writer of PLY files.
 
 use std::io::{self, Write};
 
@@ -6,15 +6,19 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::{Cloud, Unit};
 
-/// How numbers stand in a PLY file.
+/// The encoding of the numbers in a PLY file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Encoding {
-    /// As text, a line a row.
+    /// Text, one line per row.
+    #[cfg_attr(feature = "cli", value(help = "Text"))]
     Ascii,
-    /// As bytes, the least significant first: what almost all machines use.
+    /// Bytes, the least significant first, as on almost all machines.
     #[default]
+    #[cfg_attr(feature = "cli", value(name = "binary", help = "Binary, little-endian"))]
     BinaryLittleEndian,
-    /// As bytes, the most significant first.
+    /// Bytes, the most significant first.
+    #[cfg_attr(feature = "cli", value(skip))]
     BinaryBigEndian,
 }
 
@@ -32,13 +36,13 @@ impl Encoding {
     }
 }
 
-/// How many bits the positions have. Normals always have 32.
+/// The number of bits of a position's coordinates. Normals always have 32.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Precision {
-    /// 32: seven digits, what depth cameras and most programs use.
+    /// 32 bits: seven digits, as depth cameras and most programs use.
     #[default]
     Float,
-    /// 64: for large offsets, such as projected coordinates.
+    /// 64 bits, for large offsets such as projected coordinates.
     Double,
 }
 
@@ -54,21 +58,20 @@ impl Precision {
     }
 }
 
-/// What [`write()`] is to do besides the cloud itself. The default is binary, in single precision,
-/// without a unit.
+/// The options of [`write()`]. The default is binary, in single precision, without a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct WriteOptions<'a> {
     /// The unit to state in the header, as a comment that [`read()`](super::read) understands.
     pub unit: Option<Unit>,
     /// Comments for the header. One of several lines becomes several comments.
     pub comments: &'a [String],
-    /// How the numbers stand in the file.
+    /// The encoding of the numbers.
     pub encoding: Encoding,
-    /// How many bits the positions have.
+    /// The precision of the positions.
     pub precision: Precision,
 }
 
-/// Why a cloud was not written, or not to its end.
+/// The reason why a cloud was not written, or not to its end.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
     /// The destination refused.
@@ -86,10 +89,10 @@ pub enum WriteError {
 /// (and alpha unless all are opaque), label where it has labels. The same cloud and options give
 /// the same bytes.
 ///
-/// The destination should be buffered no further: it is handed some tens of kilobytes at a time.
+/// The destination needs no buffer of its own: it receives some tens of kilobytes at a time.
 ///
 /// # Errors
-/// Where the destination fails, or a position does not fit in the precision asked for.
+/// Returns an error if the destination fails, or if a position does not fit in the requested precision.
 pub fn write(mut out: impl Write, cloud: &Cloud, options: &WriteOptions<'_>) -> Result<(), WriteError> {
     const FLUSH_AT: usize = 1 << 16;
     let columns = Columns::of(cloud, options.precision)?;
@@ -115,7 +118,7 @@ pub fn write(mut out: impl Write, cloud: &Cloud, options: &WriteOptions<'_>) -> 
     Ok(out.flush()?)
 }
 
-/// What is written of each point.
+/// The columns that are written.
 struct Columns<'a> {
     positions: &'a [DVec3],
     double: bool,
@@ -213,7 +216,7 @@ fn header(cloud: &Cloud, columns: &Columns<'_>, options: &WriteOptions<'_>) -> S
     lines.join("\n")
 }
 
-/// Where the values of a row go.
+/// A destination for the values of one row.
 trait Row {
     fn float(&mut self, value: f32);
     fn double(&mut self, value: f64);

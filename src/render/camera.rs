@@ -1,11 +1,11 @@
-//! An orbit camera: where the eye is, which way it looks, and how the world lands on pixels.
+//! An orbit camera: its position and direction, and the projection of the world to pixels.
 
 use glam::{DMat4, DQuat, DVec2, DVec3, DVec4};
 use serde::{Deserialize, Serialize};
 
 use super::Bounds;
 
-/// How depth shows.
+/// The kind of projection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Projection {
     /// Near things are larger.
@@ -55,7 +55,7 @@ impl Viewport {
 /// A half-line in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// Its origin.
     pub origin_in_world: DVec3,
     /// Its unit direction.
     pub direction_in_world: DVec3,
@@ -67,20 +67,20 @@ pub struct Ray {
 /// Eye and pivot are kept apart, so that picking another pivot leaves the picture as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
-    /// Where the eye is.
+    /// The position of the eye.
     pub eye_in_world: DVec3,
-    /// How the view frame is turned.
+    /// The rotation from the view frame to the world.
     pub world_from_view: DQuat,
-    /// What orbiting turns about.
+    /// The point that orbiting turns about.
     pub pivot_in_world: DVec3,
     /// The depth at which both projections show lengths at the same size.
     pub focus_distance: f64,
     /// The angle of view from the picture's lower to its upper edge.
     pub vertical_fov_rad: f64,
-    /// How depth shows.
+    /// The kind of projection.
     pub projection: Projection,
-    /// Where the optical axis meets the picture, in normalized device coordinates (zero: its
-    /// middle); what a shifted lens does. It keeps the fruit clear of a legend.
+    /// The place at which the optical axis meets the picture, in normalized device coordinates (zero for its middle), as
+    /// with a shifted lens. It keeps the fruit clear of a legend.
     pub lens_shift_ndc: DVec2,
 }
 
@@ -103,7 +103,7 @@ impl Camera {
         }
     }
 
-    /// Whether its numbers make a picture: all finite, a turn, and positive lengths and angles.
+    /// Whether its numbers are valid: all finite, a unit rotation, and positive lengths and angles.
     pub fn is_sound(&self) -> bool {
         self.eye_in_world.is_finite()
             && self.pivot_in_world.is_finite()
@@ -129,7 +129,7 @@ impl Camera {
         self.world_from_view * DVec3::X
     }
 
-    /// How far a point lies before the eye, along the line of sight; negative behind it.
+    /// The distance of a point before the eye, along the line of sight; negative behind it.
     pub fn depth_of(&self, point_in_world: DVec3) -> f64 {
         (point_in_world - self.eye_in_world).dot(self.forward_in_world())
     }
@@ -165,13 +165,13 @@ impl Camera {
         self.focus_distance *= factor;
     }
 
-    /// Zooms so that what is under the cursor, at the pivot's depth, stays there.
+    /// Zooms with the point under the cursor, at the pivot's depth, kept in place.
     pub fn zoom_at_pixel(&mut self, pixel: DVec2, factor: f64, viewport: Viewport) {
         let anchor = self.point_at_depth(pixel, self.pivot_depth(), viewport);
         self.zoom_toward(anchor, factor);
     }
 
-    /// Makes `point_in_world` what orbiting turns about. The picture stays as it is.
+    /// Makes `point_in_world` the pivot. The picture stays as it is.
     pub fn set_pivot(&mut self, point_in_world: DVec3) {
         self.pivot_in_world = point_in_world;
         let depth = self.depth_of(point_in_world);
@@ -186,7 +186,7 @@ impl Camera {
         if depth > 0.0 { depth } else { self.focus_distance }
     }
 
-    /// Half the height of what the picture shows at `depth`.
+    /// Half the height of the visible part of the world at `depth`.
     pub(super) fn half_height_at(&self, depth: f64) -> f64 {
         let depth = match self.projection {
             Projection::Perspective => depth,
@@ -195,7 +195,7 @@ impl Camera {
         depth * (0.5 * self.vertical_fov_rad).tan()
     }
 
-    /// How long one pixel is at `depth`, in the world's unit: what a scale bar is made from.
+    /// The size of one pixel at `depth`, in the world's unit.
     pub fn pixel_size_at(&self, depth: f64, viewport: Viewport) -> f64 {
         2.0 * self.half_height_at(depth) / viewport.height_px
     }
@@ -248,7 +248,7 @@ impl Camera {
         shift * clip_from_view * self.view_from_world()
     }
 
-    /// Where a point lands, in pixels; `None` behind the eye.
+    /// The projection of a point, in pixels; `None` behind the eye.
     pub fn project(&self, point_in_world: DVec3, viewport: Viewport) -> Option<DVec2> {
         let p = self.world_from_view.inverse() * (point_in_world - self.eye_in_world);
         let depth = -p.z;
@@ -260,8 +260,7 @@ impl Camera {
         Some(viewport.pixel_from_ndc(ndc))
     }
 
-    /// The ray of everything that lands on a pixel. In an orthographic picture it starts beside the
-    /// eye.
+    /// The ray of all points that project to a pixel. In an orthographic picture it starts beside the eye.
     pub fn ray_through(&self, pixel: DVec2, viewport: Viewport) -> Ray {
         let ndc = viewport.ndc_from_pixel(pixel) - self.lens_shift_ndc;
         let half = self.half_height_at(1.0);
@@ -276,7 +275,7 @@ impl Camera {
         }
     }
 
-    /// The point at `depth` that lands on a pixel.
+    /// The point at `depth` that projects to a pixel.
     pub fn point_at_depth(&self, pixel: DVec2, depth: f64, viewport: Viewport) -> DVec3 {
         let ray = self.ray_through(pixel, viewport);
         let along = ray.direction_in_world.dot(self.forward_in_world());
@@ -284,7 +283,7 @@ impl Camera {
     }
 }
 
-/// The orientation of a view whose eye lies in direction `backward` from what it looks at.
+/// The orientation of a view whose eye lies in direction `backward` from its target.
 pub(super) fn orientation(backward: DVec3, up: DVec3) -> DQuat {
     let z = backward.try_normalize().unwrap_or(DVec3::NEG_Z);
     // Where up lies along the line of sight, any direction across it will do.

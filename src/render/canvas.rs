@@ -10,7 +10,7 @@ use super::pipelines::{COLOR, DEPTH};
 use super::uploads::{GrowingBuffer, LineInstance, PointsUpload, triangles};
 use super::{Camera, Color, Projection, Renderer, Scene, Viewport};
 
-/// What every shader knows about the view.
+/// The view as every shader reads it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 struct ViewUniform {
@@ -26,21 +26,21 @@ struct ViewUniform {
     oversampling: f32,
 }
 
-/// How much of a scene is drawn, and into how many pixels.
+/// The part of a scene that is drawn, and its size in pixels.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Extract {
     /// Width and height of the picture.
     pub size_px: [u32; 2],
     /// Each pixel is the mean of this many squared (1 or 2).
     pub oversampling: u32,
-    /// Which points of each cloud. They come in an order whose every beginning is spread evenly over
-    /// the cloud, so that `0..20_000` is a thinned one. A range that begins later adds to what was
-    /// drawn last, with the same camera: so a large cloud can appear little by little.
+    /// The range of points of each cloud. Points are ordered so that every prefix is spread evenly over the cloud:
+    /// `0..20_000` is a thinned cloud. A range that begins later adds to the last picture of the same camera, so that a
+    /// large cloud can appear little by little.
     pub points: Range<usize>,
 }
 
 impl Extract {
-    /// All of it.
+    /// The whole scene.
     pub fn whole(size_px: [u32; 2], oversampling: u32) -> Self {
         Self {
             size_px,
@@ -50,7 +50,7 @@ impl Extract {
     }
 }
 
-/// What is drawn into, of one size.
+/// The render targets of one size.
 struct Targets {
     size_px: [u32; 2],
     points_color: wgpu::TextureView,
@@ -62,8 +62,7 @@ struct Targets {
     composite_group: wgpu::BindGroup,
 }
 
-/// One view: what it is drawn into, and what of its scene lies on the GPU. Each view has its own, so
-/// that none overwrites another's.
+/// The render targets and buffers of one view. Each view has its own, so that none overwrites another's.
 #[derive(Default)]
 pub struct Canvas {
     targets: Option<Targets>,
@@ -75,12 +74,12 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// A view of which nothing was drawn yet.
+    /// A canvas on which nothing was drawn yet.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Draws the scene into the canvas. Submits nothing: that is the encoder's owner's.
+    /// Records the drawing of the scene into the canvas. The caller submits the encoder.
     #[expect(
         clippy::too_many_arguments,
         reason = "what a window's paint callback hands over, and what to draw"
@@ -138,7 +137,7 @@ impl Canvas {
             Some((&targets.overlaid_depth, false)),
         );
         pass.set_bind_group(0, view, &[]);
-        // What points hide, faintly; then the lines, which hide the planes behind them; then planes.
+        // First the hidden parts of lines, faintly; then lines, which hide the planes behind them; then planes.
         if let (Some(buffer), 1..) = (self.lines.get(), scene.lines.len() as u32) {
             pass.set_vertex_buffer(0, buffer.slice(..));
             for pipeline in [&renderer.hidden_lines, &renderer.seen_lines] {
@@ -158,7 +157,7 @@ impl Canvas {
         }
     }
 
-    /// Puts the picture that was last drawn into a pass of somebody else's, filling its viewport.
+    /// Draws the last picture into the caller's pass, filling its viewport.
     pub fn composite(&self, renderer: &Renderer, pass: &mut wgpu::RenderPass<'_>) {
         if let (Some(targets), Some((_, view))) = (&self.targets, &self.view) {
             pass.set_pipeline(&renderer.composite);
@@ -339,7 +338,7 @@ impl Targets {
     }
 }
 
-/// A pass into `color`; what is there is kept where `depth` is only continued.
+/// Begins a pass into `color`. The target keeps its content if `depth` does.
 fn begin<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     label: &str,

@@ -1,4 +1,4 @@
-//! Where to put a camera so that something fills the picture.
+//! Framing: the placement of a camera so that given points fill the picture.
 
 use glam::{DVec2, DVec3};
 
@@ -75,7 +75,7 @@ impl Camera {
     }
 
     /// Turns toward the points and narrows or widens the lens, without moving the eye, so that they
-    /// fill the picture between the insets: what the depth camera itself saw, enlarged.
+    /// fill the picture between the insets: the depth camera's own view, enlarged.
     pub fn frame_from_here(&mut self, points_in_world: &[DVec3], viewport: Viewport, insets: Insets) {
         let finite = || points_in_world.iter().filter(|p| p.is_finite());
         let up = self.up_in_world();
@@ -126,7 +126,7 @@ impl Camera {
     }
 }
 
-/// The share of the picture between the insets, each way, and where its middle lies.
+/// The share of the picture between the insets, each way, and the place of its middle.
 fn inner(viewport: Viewport, insets: Insets) -> (DVec2, DVec2) {
     // Half of the picture is the content's whatever the insets ask for.
     let share = |low: f64, high: f64, all: f64| {

@@ -2,7 +2,7 @@
 
 use super::Renderer;
 
-/// Why there is nothing to draw with.
+/// The reason why there is no usable adapter.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GpuError {
     /// No driver was found.
@@ -10,12 +10,12 @@ pub enum GpuError {
         "no graphics adapter was found; install a Vulkan driver, for instance Mesa's software driver (on Debian and Ubuntu: apt install mesa-vulkan-drivers)"
     )]
     NoAdapter,
-    /// The environment names an adapter that is not there.
+    /// The environment names an adapter that does not exist.
     #[error("no graphics adapter is called “{wanted}” (WGPU_ADAPTER_NAME); there are: {found}")]
     NoSuchAdapter {
-        /// What was asked for.
+        /// The requested name.
         wanted: String,
-        /// What there is.
+        /// The names of the existing adapters.
         found: String,
     },
     /// The adapter cannot be used.
@@ -23,7 +23,7 @@ pub enum GpuError {
     Device {
         /// Its name.
         adapter: String,
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
@@ -36,7 +36,7 @@ pub struct Gpu {
     adapter: wgpu::AdapterInfo,
 }
 
-/// What pictures without a window are drawn into.
+/// The format of pictures without a window.
 pub(super) const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 impl Gpu {
@@ -44,7 +44,7 @@ impl Gpu {
     /// of the backends that `WGPU_BACKEND` allows.
     ///
     /// # Errors
-    /// Where there is none, or it cannot be used.
+    /// Returns an error if there is none, or if it cannot be used.
     pub fn headless() -> Result<Self, GpuError> {
         match std::env::var("WGPU_ADAPTER_NAME") {
             Ok(wanted) if !wanted.is_empty() => Self::named(&wanted),
@@ -55,17 +55,17 @@ impl Gpu {
     /// The software driver, which draws the same on every machine that has it.
     ///
     /// # Errors
-    /// Where there is none, or it cannot be used.
+    /// Returns an error if there is none, or if it cannot be used.
     pub fn software() -> Result<Self, GpuError> {
         Self::requested(true)
     }
 
-    /// What it is called.
+    /// The adapter's name.
     pub fn adapter_name(&self) -> &str {
         &self.adapter.name
     }
 
-    /// Whether it is a software driver, which wants fewer points while the camera moves.
+    /// Whether it is a software driver, which needs fewer points while the camera moves.
     pub fn is_software(&self) -> bool {
         self.adapter.device_type == wgpu::DeviceType::Cpu
     }

@@ -1,8 +1,7 @@
 //! A point renderer: a camera, a scene of points, lines and planes as plain data, and their picture.
 //!
-//! It knows [`crate::geometry`] and nothing else of this crate, neither a window nor the method.
-//! [`Camera`] and [`Scene`] need no GPU and are always built; what draws them is behind the
-//! feature `window`.
+//! It depends on [`crate::geometry`] and on nothing else in this crate. [`Camera`] and [`Scene`] need no GPU and are always
+//! built; the drawing itself needs the feature `window`.
 
 mod camera;
 #[cfg(feature = "window")]

@@ -3,7 +3,7 @@
 use super::gpu::OFFSCREEN_FORMAT;
 use super::{Camera, Canvas, Extract, Gpu, Image, MAX_SIDE_PX, Scene};
 
-/// Why a picture could not be drawn.
+/// The reason why a picture could not be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DrawError {
     /// A side is zero or too long.
@@ -15,7 +15,7 @@ pub enum DrawError {
         width_px: u32,
         /// Rows.
         height_px: u32,
-        /// What the adapter takes.
+        /// The largest side of the adapter.
         most: u32,
     },
     /// The adapter ran out of memory, was unplugged, or refused.
@@ -26,7 +26,7 @@ pub enum DrawError {
 /// Draws a scene into memory, each pixel the mean of four where the adapter has room for that.
 ///
 /// # Errors
-/// Where the size is out of range or the adapter fails.
+/// Returns an error if the size is out of range, or if the adapter fails.
 pub fn draw_image(
     gpu: &Gpu,
     scene: &Scene,
@@ -50,7 +50,7 @@ pub fn draw_image(
 /// Draws parts of a scene into memory, one after the other; all of the first one's size.
 ///
 /// # Errors
-/// Where the size is out of range, there is no part, or the adapter fails.
+/// Returns an error if the size is out of range, if there is no part, or if the adapter fails.
 pub fn draw_extract(
     gpu: &Gpu,
     scene: &Scene,

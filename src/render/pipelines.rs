@@ -1,19 +1,18 @@
-//! The pipelines: made once for a device and a target's format.
+//! The pipelines, created once per device and target format.
 
 use wgpu::{
     BindGroupLayout, BlendState, CompareFunction, PrimitiveTopology, RenderPipeline, TextureFormat,
     VertexAttribute, VertexBufferLayout, VertexStepMode, vertex_attr_array,
 };
 
-/// The color format of what is drawn before it is composited: bytes as they will be shown (sRGB),
-/// so that colors come out as they went in and blend as they do in windows and browsers.
+/// The color format of the targets before compositing. Its bytes are sRGB, so that colors keep their values and blend as
+/// they do in windows and browsers.
 pub(super) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
 pub(super) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
 const VIEW: &str = include_str!("shaders/view.wgsl");
 
-/// Every shader: its name, and its text without what [`Renderer`] puts before it. The first one is what it
-/// puts there.
+/// Every shader with its name. [`Renderer`] puts the text of the first one before each of the others.
 pub const SHADERS: [(&str, &str); 6] = [
     ("view", VIEW),
     ("points", include_str!("shaders/points.wgsl")),
@@ -23,8 +22,8 @@ pub const SHADERS: [(&str, &str); 6] = [
     ("composite", include_str!("shaders/composite.wgsl")),
 ];
 
-/// What draws: everything that neither a scene nor a camera changes. One for each device and target
-/// format; any number of [`super::Canvas`]es may be drawn with it.
+/// The pipelines and layouts, which depend on neither scene nor camera. One per device and target format serves any number
+/// of [`super::Canvas`]es.
 pub struct Renderer {
     pub(super) points: RenderPipeline,
     pub(super) shading: RenderPipeline,
@@ -45,7 +44,7 @@ const LINE: [VertexAttribute; 5] =
     vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4, 3 => Unorm8x4, 4 => Float32x4];
 const PLANE: [VertexAttribute; 2] = vertex_attr_array![0 => Float32x3, 1 => Unorm8x4];
 
-/// What tells one pipeline from another.
+/// The properties in which pipelines differ.
 struct Recipe<'a> {
     name: &'a str,
     shader: &'a str,
@@ -54,14 +53,14 @@ struct Recipe<'a> {
     second_group: Option<&'a BindGroupLayout>,
     buffers: &'a [Option<VertexBufferLayout<'a>>],
     topology: PrimitiveTopology,
-    /// Whether it writes depth, and what it compares.
+    /// Whether it writes depth, and its comparison.
     depth: Option<(bool, CompareFunction)>,
     blend: Option<BlendState>,
     format: TextureFormat,
 }
 
 impl Renderer {
-    /// Makes all pipelines. `target_format` is what [`super::Canvas::composite`] draws into.
+    /// Creates all pipelines. `target_format` is the format of the target of [`super::Canvas::composite`].
     pub fn new(device: &wgpu::Device, target_format: TextureFormat) -> Self {
         let uniform = |label| layout(device, label, &[uniform_entry()]);
         let view_layout = uniform("view");
@@ -160,7 +159,7 @@ impl Renderer {
     }
 }
 
-/// What the shading pass reads.
+/// The inputs of the shading pass.
 fn shading_layout(device: &wgpu::Device) -> BindGroupLayout {
     layout(
         device,
@@ -172,7 +171,7 @@ fn shading_layout(device: &wgpu::Device) -> BindGroupLayout {
     )
 }
 
-/// What compositing reads.
+/// The inputs of compositing.
 fn composite_layout(device: &wgpu::Device) -> BindGroupLayout {
     layout(
         device,

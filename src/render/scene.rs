@@ -1,4 +1,4 @@
-//! What is drawn, as plain data: points, lines, planes, background.
+//! The scene as plain data: points, lines, planes, background.
 
 use std::sync::Arc;
 
@@ -34,11 +34,11 @@ pub struct Points {
     /// Positions less the scene's origin. Shared, so that a scene can be copied and given other lines
     /// without a copy of its points.
     pub positions: Arc<[Vec3]>,
-    /// One a point; the opacity is not used.
+    /// One color per point; the opacity is not used.
     pub colors: Arc<[Color]>,
-    /// Changes whenever `positions` does: what tells the renderer to send them to the GPU again.
+    /// A number that changes with `positions`: the renderer then sends them to the GPU again.
     pub positions_generation: u64,
-    /// Changes whenever `colors` does.
+    /// A number that changes with `colors`.
     pub colors_generation: u64,
     /// Diameter in pixels.
     pub size_px: f32,
@@ -65,13 +65,13 @@ pub struct Line {
     pub color: Color,
     /// Its width in pixels, without the outline.
     pub width_px: f32,
-    /// The color around it.
+    /// The color of the outline.
     pub outline_color: Color,
-    /// How wide that is on each side, in pixels; zero for none.
+    /// The width of the outline on each side, in pixels; zero for none.
     pub outline_px: f32,
     /// Whether it is broken.
     pub dash: Dash,
-    /// How much of it shows where points hide it: 0 nothing, 1 as if nothing were there.
+    /// The opacity of the parts that points hide, from 0 (hidden) to 1 (as if in front).
     pub hidden_opacity: f32,
 }
 
@@ -128,7 +128,7 @@ pub struct Polygon {
     pub color: Color,
 }
 
-/// What is behind everything: a gradient from top to bottom. The opacity is not used.
+/// The background: a gradient from top to bottom. The opacity is not used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Background {
     /// At the upper edge.
@@ -150,26 +150,26 @@ pub struct EyeDome {
 /// Everything that is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
-    /// What is subtracted from positions before they become `f32`: somewhere in the cloud.
+    /// The origin of the points' `f32` positions: somewhere in the cloud.
     pub origin_in_world: DVec3,
     /// Clouds of points.
     pub points: Vec<Points>,
     /// Lines.
     pub lines: Vec<Line>,
-    /// Changes whenever `lines` does.
+    /// A number that changes with `lines`.
     pub lines_generation: u64,
     /// Planes.
     pub polygons: Vec<Polygon>,
-    /// What is behind everything.
+    /// The background.
     pub background: Background,
     /// Shading by depth.
     pub eye_dome: EyeDome,
-    /// What holds everything that is drawn.
+    /// A ball around the whole content.
     pub bounds: Bounds,
 }
 
 impl Scene {
-    /// A scene without anything in it.
+    /// A scene without content.
     pub fn empty(background: Background) -> Self {
         Self {
             origin_in_world: DVec3::ZERO,
@@ -197,7 +197,7 @@ impl Scene {
         }
     }
 
-    /// Sets the bounds to what is in the scene. Walks over all points: for when data has changed.
+    /// Fits the bounds to the content, in time linear in the points.
     pub fn fit_bounds(&mut self) {
         let origin = self.origin_in_world;
         // The corners of each cloud's own bounds, which take a tenth of the time that its points would.

@@ -1,4 +1,4 @@
-//! What was sent to the GPU, and whether it is still what the scene holds.
+//! Buffers of a scene on the GPU, which are written again only when the scene has changed.
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
@@ -142,8 +142,8 @@ impl PointsUpload {
         }
     }
 
-    /// Sends what has changed of the first `upto` points, in the order in which they are drawn. No work
-    /// is done a point where nothing has.
+    /// Sends the changed chunks of the first `upto` points, in drawing order. There is no work per point if nothing has
+    /// changed.
     pub(super) fn update(
         &mut self,
         device: &wgpu::Device,

@@ -1,9 +1,9 @@
-//! What is said of the result in words, in the window and under a saved picture.
+//! The result in words, for the window and the captions of pictures.
 
 use crate::method::axis_error_rad;
 use crate::method::{Analysis, AxisEstimate, Candidate, Warning};
 
-/// The cloud and how it was read; the plane and what came of it.
+/// Two lines: the cloud with its settings, and the plane with its result.
 pub fn caption(
     name: &str,
     analysis: &Analysis,
@@ -38,7 +38,7 @@ pub fn caption(
     vec![first, format!("plane g {g}, h {h}: {score} · {error}")]
 }
 
-/// How sure the winner is, in words; `None` where there is no winner or nothing to compare it with.
+/// The lead of the winner in words; `None` if there is no winner or no runner-up.
 pub fn lead_in_words(analysis: &Analysis) -> Option<String> {
     let best = analysis.best.as_ref().ok()?;
     let (runner_up, runner_up_cm) = best.runner_up?;

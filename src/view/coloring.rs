@@ -1,4 +1,4 @@
-//! The colorings of one cloud: what each point's color says.
+//! The colorings of a cloud.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -12,8 +12,9 @@ use crate::geometry::Cloud;
 use crate::method::{Analysis, PlaneDetail, PointDetail, Side};
 use crate::render::Color;
 
-/// What the points' colors show.
+/// The quantity that the points' colors show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Coloring {
     /// The file's colors.
     Rgb,
@@ -21,9 +22,9 @@ pub enum Coloring {
     Side,
     /// Whether a point has a visible partner, or is one (Fig. 5).
     Partner,
-    /// d, in centimeters.
+    /// d, the distance from the mirrored point to its nearest neighbor, in centimeters.
     Distance,
-    /// ξ, in degrees.
+    /// ξ, the angle between the mirrored normal and that neighbor's, in degrees.
     Angle,
     /// d + τ·ξ, in centimeters.
     Score,
@@ -66,27 +67,27 @@ impl Coloring {
     }
 }
 
-/// What is looked at: an analysis, and perhaps one of its planes.
+/// The subject of a view: an analysis, and perhaps one of its planes.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'a> {
     /// The points that are shown.
     pub shown: &'a ShownPoints,
-    /// The analysis they went through.
+    /// Their analysis.
     pub analysis: &'a Analysis,
-    /// Every used point's part in the score of the plane that is looked at.
+    /// The part of every used point in the plane's score.
     pub detail: Option<&'a PlaneDetail>,
 }
 
-/// A cloud's colors, one a shown point, and what they mean.
+/// The colors of a cloud with their legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Colored {
-    /// One a shown point.
+    /// One color per shown point.
     pub colors: Vec<Color>,
-    /// What they mean.
+    /// Their legend.
     pub legend: Legend,
 }
 
-/// Why a cloud cannot be colored so.
+/// The reason why a cloud cannot be colored as requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum ColoringError {
     /// The file has no colors.
@@ -106,7 +107,7 @@ const RAMP_SHARE: f64 = 0.98;
 /// Colors every shown point.
 ///
 /// # Errors
-/// Where the file or the analysis lacks what is to be shown.
+/// Returns an error if the file has no colors or labels, or if there is no plane.
 pub fn color_points(subject: Subject<'_>, coloring: Coloring) -> Result<Colored, ColoringError> {
     let detail = || subject.detail.ok_or(ColoringError::NoPlane);
     Ok(match coloring {
@@ -130,7 +131,7 @@ pub fn color_points(subject: Subject<'_>, coloring: Coloring) -> Result<Colored,
     })
 }
 
-/// Colors the points of a cloud that was not analyzed: by what the file says of them, or in one gray.
+/// Colors the points of a cloud that was not analyzed: by the file's colors or labels, or in one gray.
 pub fn color_bare(shown: &ShownPoints, coloring: Coloring) -> Colored {
     let by_what_there_is = match coloring {
         Coloring::Label => by_label(shown),
@@ -156,7 +157,7 @@ fn by_file(shown: &ShownPoints) -> Result<Colored, ColoringError> {
     })
 }
 
-/// Colors by category: the categories in their order, and for each used point which one it is in.
+/// Colors by category: the categories in their order, and the index of each used point's category.
 fn by_category(
     subject: Subject<'_>,
     title: &str,
@@ -335,7 +336,7 @@ fn by_label(shown: &ShownPoints) -> Result<Colored, ColoringError> {
     Ok(color_labels(labels))
 }
 
-/// Colors points by labels, one a point.
+/// Colors points by labels, one per point.
 pub fn color_labels(labels: &[i32]) -> Colored {
     let mut counts: BTreeMap<i32, usize> = BTreeMap::new();
     for &label in labels {

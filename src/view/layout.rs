@@ -1,32 +1,14 @@
-//! Where legend, scale bar, triad, angle and caption stand, so that none covers another.
+//! The layout of legend, scale bar, triad, angle and caption, so that none covers another.
 
 use glam::{DVec2, DVec3};
 
-use super::annotation::{Anchor, Annotation, Theme};
 use super::legend::Legend;
-use crate::render::{Camera, Color, Insets, Viewport};
+use super::page::Page;
+use super::primitive::{Anchor, Primitive};
+use crate::render::{Camera, Color, Insets};
 
-/// How wide a text is, in pixels, at a size in pixels: the painter's own measure.
+/// The painter's measure of a text: its width in pixels at a size in pixels.
 type Measure<'a> = &'a dyn Fn(&str, f64) -> f64;
-
-/// What is to be written on a picture.
-#[derive(Debug, Clone, Copy)]
-pub struct Page<'a> {
-    /// The picture.
-    pub viewport: Viewport,
-    /// Light on dark, or dark on light.
-    pub theme: Theme,
-    /// What the colors mean.
-    pub legend: Option<&'a Legend>,
-    /// The unit of a scale bar's length, such as cm.
-    pub scale_unit: Option<&'a str>,
-    /// Whether to show which way x, y and z point.
-    pub has_triad: bool,
-    /// Lines of a caption, the most important first.
-    pub caption: &'a [String],
-    /// A text beside a point in the world: the angle at the axis' end.
-    pub label: Option<(DVec3, &'a str)>,
-}
 
 impl Page<'_> {
     fn text_px(&self) -> f64 {
@@ -65,7 +47,7 @@ impl Page<'_> {
     }
 }
 
-/// The room that the annotations take at the picture's edges: what the fruit is framed between.
+/// The room that texts and legends take at the edges of the picture; the fruit is framed between them.
 pub fn insets(page: &Page<'_>, measure: Measure<'_>) -> Insets {
     let margin = page.margin_px();
     let legend = page.legend_width_px(measure);
@@ -81,7 +63,7 @@ pub fn insets(page: &Page<'_>, measure: Measure<'_>) -> Insets {
     }
 }
 
-/// A box that something stands in.
+/// A box that is taken.
 #[derive(Debug, Clone, Copy)]
 struct Area {
     min: DVec2,
@@ -95,7 +77,7 @@ impl Area {
 }
 
 /// Lays everything out; `camera` is the picture's, framed with [`insets`] or not.
-pub fn annotate(page: &Page<'_>, camera: &Camera, measure: Measure<'_>) -> Vec<Annotation> {
+pub fn lay_out(page: &Page<'_>, camera: &Camera, measure: Measure<'_>) -> Vec<Primitive> {
     let mut out = Vec::new();
     let mut taken = Vec::new();
     caption(page, measure, &mut out);
@@ -109,8 +91,8 @@ pub fn annotate(page: &Page<'_>, camera: &Camera, measure: Measure<'_>) -> Vec<A
     if page.scale_unit.is_some() {
         taken.extend(scale_bar(page, camera, bottom, measure, &mut out));
     }
-    if let Some((place, text)) = page.label {
-        label(page, camera, place, text, &taken, bottom, measure, &mut out);
+    if let Some((place, text)) = &page.label {
+        label(page, camera, *place, text, &taken, bottom, measure, &mut out);
     }
     out
 }
@@ -129,12 +111,12 @@ fn shortened(text: &str, size: f64, room: f64, measure: Measure<'_>) -> String {
     String::new()
 }
 
-fn caption(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) {
+fn caption(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Primitive>) {
     let (size, margin) = (page.text_px(), page.margin_px());
     let room = page.viewport.width_px - 2.0 * margin;
     let top = page.viewport.height_px - margin - page.caption_height_px();
     for (i, line) in page.caption.iter().enumerate() {
-        out.push(Annotation::Text {
+        out.push(Primitive::Text {
             at: DVec2::new(margin, top + page.line_px() * (i as f64 + 0.8)),
             anchor: Anchor::Start,
             size_px: size,
@@ -149,7 +131,7 @@ fn caption(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) {
     }
 }
 
-fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) -> Area {
+fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Primitive>) -> Area {
     let (size, margin, line) = (page.text_px(), page.margin_px(), page.line_px());
     let width = page.legend_width_px(measure);
     let empty = Legend::default();
@@ -164,13 +146,13 @@ fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) -> A
             1.8 * margin + lines * line + 0.4 * margin,
         ),
     };
-    out.push(Annotation::Box {
+    out.push(Primitive::Box {
         min: area.min,
         max: area.max,
         color: page.theme.paper(),
     });
     let mut y = 1.6 * margin;
-    let text = |y: f64, x: f64, anchor, size_px: f64, color: Color, text: String| Annotation::Text {
+    let text = |y: f64, x: f64, anchor, size_px: f64, color: Color, text: String| Primitive::Text {
         at: DVec2::new(x, y + 0.75 * line),
         anchor,
         size_px,
@@ -184,7 +166,7 @@ fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) -> A
     y += line;
     if let Some(ramp) = &legend.ramp {
         let min = DVec2::new(left, y + 0.2 * line);
-        out.push(Annotation::Ramp {
+        out.push(Primitive::Ramp {
             min,
             max: DVec2::new(left + width, y + line),
             stops: ramp.stops.clone(),
@@ -205,7 +187,7 @@ fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) -> A
                 p if p >= 1.0 => Anchor::End,
                 _ => Anchor::Middle,
             };
-            out.push(Annotation::Line {
+            out.push(Primitive::Line {
                 from: DVec2::new(x, y + line),
                 to: DVec2::new(x, y + 1.2 * line),
                 width_px: 1.0,
@@ -216,7 +198,7 @@ fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) -> A
         y += ramp_lines * line;
     }
     for swatch in &legend.swatches {
-        out.push(Annotation::Box {
+        out.push(Primitive::Box {
             min: DVec2::new(left, y + 0.2 * line),
             max: DVec2::new(left + 0.6 * line, y + 0.8 * line),
             color: swatch.color,
@@ -233,9 +215,9 @@ fn legend(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Annotation>) -> A
     area
 }
 
-/// The world's axes as the camera sees them, in the lower left corner. The letters name the file's
-/// own axes, so y points down in a camera's frame.
-fn triad(page: &Page<'_>, camera: &Camera, bottom: f64, out: &mut Vec<Annotation>) -> Area {
+/// The directions of the world's axes in the view, in the lower left corner. The letters name the file's own axes, so y
+/// points down in a camera's frame.
+fn triad(page: &Page<'_>, camera: &Camera, bottom: f64, out: &mut Vec<Primitive>) -> Area {
     let (size, margin) = (page.text_px(), page.margin_px());
     let arm = 2.2 * size;
     let reach = arm + 1.1 * size;
@@ -254,7 +236,7 @@ fn triad(page: &Page<'_>, camera: &Camera, bottom: f64, out: &mut Vec<Annotation
     arms.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (_, toward, name, color) in arms {
         let tip = middle + arm * toward;
-        out.push(Annotation::Line {
+        out.push(Primitive::Line {
             from: middle,
             to: tip,
             width_px: (size / 7.0).max(1.5),
@@ -263,7 +245,7 @@ fn triad(page: &Page<'_>, camera: &Camera, bottom: f64, out: &mut Vec<Annotation
         // An axis along the line of sight has no direction to write its letter in.
         let beside = toward.try_normalize().filter(|_| toward.length() > 0.2);
         let at = tip + 0.65 * size * beside.unwrap_or(DVec2::new(-0.7, -0.7));
-        out.push(Annotation::Text {
+        out.push(Primitive::Text {
             at: at + DVec2::new(0.0, 0.35 * size),
             anchor: Anchor::Middle,
             size_px: size,
@@ -284,7 +266,7 @@ fn scale_bar(
     camera: &Camera,
     bottom: f64,
     measure: Measure<'_>,
-    out: &mut Vec<Annotation>,
+    out: &mut Vec<Primitive>,
 ) -> Option<Area> {
     let (size, margin) = (page.text_px(), page.margin_px());
     let depth = camera.depth_of(camera.pivot_in_world);
@@ -305,7 +287,7 @@ fn scale_bar(
     let (right, y) = (page.viewport.width_px - margin, bottom - 0.7 * margin);
     let color = page.theme.ink();
     let mut line = |from: DVec2, to: DVec2| {
-        out.push(Annotation::Line {
+        out.push(Primitive::Line {
             from,
             to,
             width_px: (size / 8.0).max(1.5),
@@ -318,7 +300,7 @@ fn scale_bar(
     }
     let half = 0.5 * width.max(measure(&text, size));
     let middle = right - half;
-    out.push(Annotation::Text {
+    out.push(Primitive::Text {
         at: DVec2::new(middle, y - 0.7 * size),
         anchor: Anchor::Middle,
         size_px: size,
@@ -332,7 +314,7 @@ fn scale_bar(
     })
 }
 
-/// A text beside a point, moved to where it covers nothing else and nothing cuts it off.
+/// A text beside a point, moved so that it covers nothing else and is not cut off.
 #[expect(
     clippy::too_many_arguments,
     reason = "the page, a text with its place, and what is there already"
@@ -345,7 +327,7 @@ fn label(
     taken: &[Area],
     bottom: f64,
     measure: Measure<'_>,
-    out: &mut Vec<Annotation>,
+    out: &mut Vec<Primitive>,
 ) {
     let Some(place) = camera.project(place_in_world, page.viewport) else {
         return;
@@ -380,12 +362,12 @@ fn label(
     let Some(area) = near.map(|offset| area_at(place + offset)).into_iter().find(free) else {
         return;
     };
-    out.push(Annotation::Box {
+    out.push(Primitive::Box {
         min: area.min,
         max: area.max,
         color: page.theme.paper(),
     });
-    out.push(Annotation::Text {
+    out.push(Primitive::Text {
         at: DVec2::new(0.5 * (area.min.x + area.max.x), area.max.y - 0.35 * height),
         anchor: Anchor::Middle,
         size_px: size,

@@ -1,17 +1,17 @@
-//! A coloring's key, as data.
+//! The legend of a coloring, as plain data.
 
 use crate::render::Color;
 
-/// What the colors mean.
+/// The meaning of the colors.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Legend {
-    /// What is colored, with its unit.
+    /// The quantity, with its unit.
     pub title: String,
     /// Values as a ramp of colors.
     pub ramp: Option<Ramp>,
     /// Single colors.
     pub swatches: Vec<Swatch>,
-    /// What else ought to be known, a line each.
+    /// Further notes, one line each.
     pub notes: Vec<String>,
 }
 
@@ -20,7 +20,7 @@ pub struct Legend {
 pub struct Ramp {
     /// Colors at equal steps.
     pub stops: Vec<Color>,
-    /// Places from 0 (low) to 1 (high), and what stands there.
+    /// Ticks: places from 0 (low) to 1 (high), and their texts.
     pub ticks: Vec<(f64, String)>,
     /// The value at the ramp's upper end; it begins at zero.
     pub high: f64,
@@ -31,9 +31,9 @@ pub struct Ramp {
 pub struct Swatch {
     /// The color.
     pub color: Color,
-    /// What it means.
+    /// Its meaning.
     pub label: String,
-    /// How many points have it, and their share in percent; `None` where it only shows a direction.
+    /// The number of points with it, and their share in percent; `None` for a color that only shows a direction.
     pub count: Option<(usize, f64)>,
 }
 

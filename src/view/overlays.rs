@@ -1,4 +1,4 @@
-//! What is drawn over the points, each with a switch.
+//! The overlays of a view, each with a switch.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -27,13 +27,13 @@ pub enum Overlay {
     Partners,
     /// The normals of a sample of points.
     Normals,
-    /// What the colors mean.
+    /// The legend of the colors.
     Legend,
-    /// A length to compare with.
+    /// A scale bar.
     Scale,
-    /// Which way x, y and z point.
+    /// The directions of x, y and z.
     Triad,
-    /// What is shown, in words.
+    /// The caption.
     Caption,
 }
 
@@ -77,7 +77,7 @@ impl Overlay {
     }
 }
 
-/// Which overlays are on.
+/// The set of overlays that are on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Overlays(BTreeSet<Overlay>);
 

@@ -1,4 +1,4 @@
-//! Colors that people tell apart with every kind of color vision.
+//! Colors that can be told apart with every kind of color vision.
 
 use crate::render::Color;
 
@@ -13,7 +13,7 @@ pub(super) const SKY: Color = [0x56, 0xb4, 0xe9, 255];
 /// The color of a point that takes no part.
 pub const NEUTRAL: Color = [0x80, 0x80, 0x86, 255];
 
-/// What the peduncle's points are drawn in while they are picked: nothing else is.
+/// The color of the peduncle's points while they are picked, and of nothing else.
 pub const PEDUNCLE_MARK: Color = [0xff, 0x4a, 0xbe, 255];
 
 /// A color that steps back beside [`PEDUNCLE_MARK`].
@@ -24,11 +24,11 @@ pub fn faded(color: Color, is_dark: bool) -> Color {
     [mixed(color[0]), mixed(color[1]), mixed(color[2]), color[3]]
 }
 
-/// What a point that takes part but has no value is drawn in: lighter than [`NEUTRAL`].
+/// The color of a point that takes part but has no value: lighter than [`NEUTRAL`].
 pub(super) const VALUELESS: Color = [0xb4, 0xb4, 0xba, 255];
 
-/// The ramp of values at equal steps from low to high: viridis from its tenth on, since what comes
-/// before is lost on a dark background.
+/// The ramp of values at equal steps from low to high: viridis from its tenth on, since its first colors are lost on a
+/// dark background.
 pub const VALUE_STOPS: [Color; 8] = [
     [0x48, 0x26, 0x77, 255],
     [0x3f, 0x47, 0x88, 255],

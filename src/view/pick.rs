@@ -1,12 +1,12 @@
-//! Which point lies under the cursor.
+//! Picking the point under the cursor.
 
 use glam::{DVec2, DVec3};
 
 use super::ShownPoints;
 use crate::render::{Camera, Projection, Viewport};
 
-/// The point under `pixel`: of those whose disc of `radius_px` covers it, the one nearest to the eye;
-/// where none does, the one that shows nearest within `reach_px`. `None` where there is none.
+/// The point under `pixel`: of the points whose disc of `radius_px` covers it, the one nearest to the eye; if none does,
+/// the one whose projection is nearest within `reach_px`.
 ///
 /// Pixels are the viewport's, so that a view of twice the pixels picks the same.
 pub fn pick_point(

@@ -1,4 +1,4 @@
-//! A drawn picture with its annotations as a PNG that carries its settings.
+//! A picture, with the primitives painted over it, as a PNG that carries its settings.
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -8,28 +8,28 @@ use serde::{Deserialize, Serialize};
 
 use crate::charts::{raster, text};
 use crate::render::{Color, Image};
-use crate::view::{Anchor, Annotation};
+use crate::view::{Anchor, Primitive};
 
 /// The key of the text chunk that holds the settings.
 pub const SETTINGS_KEY: &str = "axiscope";
 
-/// What a picture was drawn from: enough to draw it again.
+/// The origin of a picture: enough to draw it again.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PictureSettings {
     /// The program's version.
     pub version: String,
     /// The arguments of `render` without cloud, output and `--from`.
     pub arguments: Vec<String>,
-    /// The cloud's file, as it was named.
+    /// The path of the cloud, as it was given.
     pub cloud: String,
     /// The SHA-256 of its bytes, in hexadecimal.
     pub sha256: String,
 }
 
-/// Why a picture could not be written or read.
+/// The reason why a picture could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    /// The annotations could not be painted.
+    /// The primitives could not be painted.
     #[error("the picture's texts could not be drawn: {0}")]
     Paint(String),
     /// The PNG could not be encoded.
@@ -48,18 +48,18 @@ pub enum PictureError {
     BadSettings(#[from] serde_json::Error),
 }
 
-/// How wide a text is in the bundled font, in pixels, at a size in pixels.
+/// The width of a text in the bundled font, in pixels, at a size in pixels.
 pub fn text_width_px(text: &str, size_px: f64) -> f64 {
     // Widths grow with the size: those at 1000 pixels are exact enough for all.
     text::width(text, 1000) * size_px / 1000.0
 }
 
-/// Paints annotations onto a picture, with the bundled font.
+/// Paints primitives onto a picture, with the bundled font.
 ///
 /// # Errors
-/// Where there is no memory for it.
-pub fn paint_annotations(image: &mut Image, annotations: &[Annotation]) -> Result<(), PictureError> {
-    let svg = svg_of(image.width_px, image.height_px, annotations);
+/// Returns an error if there is no memory for it.
+pub fn paint_primitives(image: &mut Image, primitives: &[Primitive]) -> Result<(), PictureError> {
+    let svg = svg_of(image.width_px, image.height_px, primitives);
     let options = usvg::Options {
         fontdb: raster::fonts(),
         ..usvg::Options::default()
@@ -79,7 +79,7 @@ pub fn paint_annotations(image: &mut Image, annotations: &[Annotation]) -> Resul
 /// Encodes a picture with its settings in a text chunk.
 ///
 /// # Errors
-/// Where the picture's size and its pixels differ.
+/// Returns an error if the picture's size and its pixels differ.
 pub fn encode_picture(image: &Image, settings: &PictureSettings) -> Result<Vec<u8>, PictureError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width_px, image.height_px);
@@ -98,10 +98,10 @@ pub fn encode_picture(image: &Image, settings: &PictureSettings) -> Result<Vec<u
     Ok(bytes)
 }
 
-/// The settings in a PNG that [`encode_picture`] made.
+/// The settings in a PNG of [`encode_picture`].
 ///
 /// # Errors
-/// Where these bytes are no PNG, or one without settings.
+/// Returns an error if the bytes are no PNG, or one without settings.
 pub fn picture_settings(png_bytes: &[u8]) -> Result<PictureSettings, PictureError> {
     let mut reader = png::Decoder::new(Cursor::new(png_bytes)).read_info()?;
     // Other programs may put the text behind the pixels.
@@ -114,7 +114,7 @@ pub fn picture_settings(png_bytes: &[u8]) -> Result<PictureSettings, PictureErro
     Ok(serde_json::from_str(&chunk.get_text()?)?)
 }
 
-/// The pixels of a PNG that [`encode_picture`] made; `None` where it is another, or broken.
+/// The pixels of a PNG of [`encode_picture`]; `None` for any other PNG, and a broken one.
 pub fn decode_picture(png_bytes: &[u8]) -> Option<Image> {
     let mut reader = png::Decoder::new(Cursor::new(png_bytes)).read_info().ok()?;
     let mut rgb = vec![0; reader.output_buffer_size()?];
@@ -132,21 +132,21 @@ pub fn decode_picture(png_bytes: &[u8]) -> Option<Image> {
     })
 }
 
-/// The annotations as an SVG document of the picture's size.
-fn svg_of(width_px: u32, height_px: u32, annotations: &[Annotation]) -> String {
+/// The primitives as an SVG document of the picture's size.
+fn svg_of(width_px: u32, height_px: u32, primitives: &[Primitive]) -> String {
     let mut svg =
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width_px}\" height=\"{height_px}\">");
-    for (index, annotation) in annotations.iter().enumerate() {
+    for (index, primitive) in primitives.iter().enumerate() {
         // Writing to a string cannot fail.
-        let _ = add(&mut svg, index, annotation);
+        let _ = add(&mut svg, index, primitive);
     }
     svg.push_str("</svg>");
     svg
 }
 
-fn add(svg: &mut String, index: usize, annotation: &Annotation) -> std::fmt::Result {
-    match annotation {
-        Annotation::Text {
+fn add(svg: &mut String, index: usize, primitive: &Primitive) -> std::fmt::Result {
+    match primitive {
+        Primitive::Text {
             at,
             anchor,
             size_px,
@@ -174,7 +174,7 @@ fn add(svg: &mut String, index: usize, annotation: &Annotation) -> std::fmt::Res
             }
             write!(svg, "<text {place} {}>{words}</text>", paint("fill", *color))
         }
-        Annotation::Line {
+        Primitive::Line {
             from,
             to,
             width_px,
@@ -188,7 +188,7 @@ fn add(svg: &mut String, index: usize, annotation: &Annotation) -> std::fmt::Res
             to.y,
             paint("stroke", *color)
         ),
-        Annotation::Box { min, max, color } => write!(
+        Primitive::Box { min, max, color } => write!(
             svg,
             "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" rx=\"3\" {}/>",
             min.x,
@@ -197,7 +197,7 @@ fn add(svg: &mut String, index: usize, annotation: &Annotation) -> std::fmt::Res
             max.y - min.y,
             paint("fill", *color)
         ),
-        Annotation::Ramp { min, max, stops } => {
+        Primitive::Ramp { min, max, stops } => {
             write!(svg, "<linearGradient id=\"ramp{index}\">")?;
             let last = stops.len().saturating_sub(1).max(1);
             for (i, c) in stops.iter().enumerate() {
@@ -227,7 +227,7 @@ fn paint(attribute: &str, [r, g, b, a]: Color) -> String {
     )
 }
 
-/// A text as XML may hold it: names of files may hold anything.
+/// A text escaped for XML: names of files may hold anything.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

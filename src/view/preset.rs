@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::render::{Camera, Insets, Projection, Viewport};
 
-/// Where to look from. *Up* in a camera's frame is −y.
+/// A standard direction of the view. *Up* in a camera's frame is −y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum ViewPreset {
     /// From the viewpoint, as the depth camera saw it.
     Camera,

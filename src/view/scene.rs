@@ -1,42 +1,49 @@
-//! From an analysis to what the renderer draws.
+//! The scene of an analysis.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::annotation::Theme;
 use super::coloring::{Colored, Subject};
-use super::overlays::{Overlay, Overlays};
+use super::overlays::Overlay;
 use super::palette::{ORANGE, PINK, SKY};
+use super::primitive::Theme;
 use super::shown::ShownPoints;
+use super::style::Style;
 use crate::geometry::{Extent, Plane};
 use crate::method::{AxisEstimate, AxisSource};
 use crate::render::{Color, EyeDome, Line, Points, Polygon, Scene};
 
-/// How an analysis is drawn.
-#[derive(Debug, Clone)]
+/// The settings of a scene.
+#[derive(Debug, Clone, Copy)]
 pub struct SceneSettings<'a> {
-    /// What is drawn over the points.
-    pub overlays: &'a Overlays,
-    /// Light on dark, or dark on light.
-    pub theme: Theme,
-    /// A point's diameter in pixels.
+    /// The style of the cloud.
+    pub style: &'a Style,
+    /// A point's diameter in physical pixels.
     pub point_size_px: f32,
-    /// 0 is no eye-dome lighting, 1 the usual strength.
-    pub eye_dome_strength: f32,
-    /// The plane that is looked at.
+    /// The plane.
     pub plane: Option<Plane>,
-    /// The axis that follows from it.
+    /// The plane's axis.
     pub axis: Option<&'a AxisEstimate>,
     /// The axis that it is compared with.
     pub reference: Option<&'a AxisEstimate>,
-    /// All axes that there are to compare with.
+    /// All axes to compare with.
     pub references: &'a [AxisEstimate],
+}
+
+impl SceneSettings<'_> {
+    fn has(&self, overlay: Overlay) -> bool {
+        self.style.overlays.has(overlay)
+    }
+
+    fn theme(&self) -> Theme {
+        self.style.theme
+    }
 }
 
 /// The computed axis is green, as in the paper's figures.
 pub const AXIS_COLOR: Color = [0x2f, 0xd0, 0x68, 255];
-/// What a further reference is drawn in, so that several can be told apart.
+/// The color of a further reference, so that several can be told apart.
 pub fn reference_color(source: &AxisSource) -> Color {
     match source {
         AxisSource::Peduncle => [0xf0, 0xe4, 0x42, 255],
@@ -48,21 +55,21 @@ pub fn reference_color(source: &AxisSource) -> Color {
 
 const WHITE: Color = [255; 4];
 const PLANE: Color = [0x8f, 0xb8, 0xde, 255];
-/// Samples that can still be told apart.
+/// Numbers of lines that can still be told apart.
 const PARTNER_LINES: usize = 120;
 const NORMAL_LINES: usize = 400;
 
-/// Everything of an analysis that is drawn in space. `colored` comes from [`super::color_points`].
-/// Generations start from zero: whoever draws several scenes after each other sets them.
+/// Builds the scene of an analysis. `colored` comes from [`super::color_points`]. Generations are zero: a caller that
+/// draws several scenes after each other sets them.
 pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSettings<'_>) -> Scene {
     let extent = subject.shown.extent;
     let size = extent.size().length().max(1e-9);
-    let has = |overlay| settings.overlays.has(overlay);
+    let has = |overlay| settings.has(overlay);
     let local = |p: DVec3| (p - extent.center()).as_vec3();
     let mut colors = colored.colors.clone();
     if let Some(plane) = settings.plane.filter(|_| has(Overlay::Plane)) {
         let positions = &subject.shown.positions;
-        brighten_cut(positions, &mut colors, &plane, 0.006 * size, settings.theme);
+        brighten_cut(positions, &mut colors, &plane, 0.006 * size, settings.theme());
     }
     let mut scene = points_alone(subject.shown, colors.into(), settings);
     if let Some(plane) = settings.plane.filter(|_| has(Overlay::Ghost)) {
@@ -107,13 +114,13 @@ pub fn build_scene(subject: Subject<'_>, colored: &Colored, settings: &SceneSett
         add_partner_lines(&mut scene, subject);
     }
     if has(Overlay::Normals) {
-        add_normals(&mut scene, subject, 0.05 * size, settings.theme);
+        add_normals(&mut scene, subject, 0.05 * size, settings.theme());
     }
     scene.fit_bounds();
     scene
 }
 
-/// A cloud that was not analyzed: its points and nothing else.
+/// Builds the scene of a cloud that was not analyzed: its points and nothing else.
 pub fn build_bare_scene(shown: &ShownPoints, colored: &Colored, settings: &SceneSettings<'_>) -> Scene {
     let mut scene = points_alone(shown, colored.colors.clone().into(), settings);
     scene.fit_bounds();
@@ -121,10 +128,10 @@ pub fn build_bare_scene(shown: &ShownPoints, colored: &Colored, settings: &Scene
 }
 
 fn points_alone(shown: &ShownPoints, colors: Arc<[Color]>, settings: &SceneSettings<'_>) -> Scene {
-    let mut scene = Scene::empty(settings.theme.background());
+    let mut scene = Scene::empty(settings.theme().background());
     scene.origin_in_world = shown.extent.center();
     scene.eye_dome = EyeDome {
-        strength: settings.eye_dome_strength,
+        strength: if settings.style.eye_dome { 1.0 } else { 0.0 },
         scale: (0.5 * shown.extent.size().length().max(1e-9)) as f32,
     };
     scene.points.push(Points {
@@ -136,13 +143,13 @@ fn points_alone(shown: &ShownPoints, colors: Arc<[Color]>, settings: &SceneSetti
     scene
 }
 
-/// Enough of the points to tell where their bulk lies, without a walk over all of a large cloud.
+/// A sample of the points, large enough to tell the place of their bulk.
 fn bulk_sample(shown: &ShownPoints) -> impl Iterator<Item = DVec3> {
     let step = (shown.len() / 20_000).max(1);
     shown.positions.iter().step_by(step).copied()
 }
 
-/// The bulk of the points alone: what [`framed_points`] begins with.
+/// The bulk of the points, without strays.
 pub fn framed_cloud(shown: &ShownPoints) -> Vec<DVec3> {
     let extent = shown.extent;
     let margin = 0.2 * extent.size() + DVec3::splat(1e-3 * extent.size().length());
@@ -152,27 +159,25 @@ pub fn framed_cloud(shown: &ShownPoints) -> Vec<DVec3> {
         .collect()
 }
 
-/// What must be in the picture: the bulk of the points (no stray decides), the plane and the axes.
-pub fn framed_points(subject: Subject<'_>, settings: &SceneSettings<'_>) -> Vec<DVec3> {
-    let extent = subject.shown.extent;
-    let mut framed = framed_cloud(subject.shown);
-    let size = extent.size().length();
-    if let Some(plane) = settings.plane.filter(|_| settings.overlays.has(Overlay::Plane)) {
-        framed.extend(plane_corners(subject, &plane, settings.axis));
+/// The points that must be in the picture: the bulk of the cloud (without strays), the plane and the axes.
+pub fn framed_points(shown: &ShownPoints, settings: &SceneSettings<'_>) -> Vec<DVec3> {
+    let mut framed = framed_cloud(shown);
+    let size = shown.extent.size().length();
+    if let Some(plane) = settings.plane.filter(|_| settings.has(Overlay::Plane)) {
+        framed.extend(plane_corners(shown, &plane, settings.axis));
     }
     for (estimate, overlay) in [
         (settings.axis, Overlay::Axis),
         (settings.reference, Overlay::Reference),
     ] {
-        if let Some(axis) = estimate.filter(|_| settings.overlays.has(overlay)) {
+        if let Some(axis) = estimate.filter(|_| settings.has(overlay)) {
             framed.extend(axis_ends(axis, size));
         }
     }
     framed
 }
 
-/// Where an axis is drawn from and to: through the fruit and a little beyond. The upper end comes
-/// second.
+/// The ends of a drawn axis, which runs through the fruit and a little beyond. The upper end comes second.
 pub(super) fn axis_ends(axis: &AxisEstimate, size: f64) -> [DVec3; 2] {
     let upward = if axis.direction.y > 0.0 {
         -axis.direction
@@ -190,7 +195,7 @@ pub(super) fn axis_ends(axis: &AxisEstimate, size: f64) -> [DVec3; 2] {
     ]
 }
 
-/// How much wider lines are drawn in a picture of so many rows than in one of the usual size.
+/// The factor for the widths of lines in a picture of so many rows.
 pub fn line_scale(height_px: u32) -> f32 {
     (height_px as f32 / 900.0).max(1.0)
 }
@@ -202,7 +207,7 @@ fn mixed(a: Color, b: Color, share_of_b: f64) -> Color {
     })
 }
 
-/// The points that the plane cuts through stand out.
+/// Brightens the points that the plane cuts through.
 fn brighten_cut(positions: &[DVec3], colors: &mut [Color], plane: &Plane, half_width: f64, theme: Theme) {
     for (p, color) in positions.iter().zip(colors) {
         if plane.signed_distance(*p).abs() <= half_width {
@@ -212,7 +217,7 @@ fn brighten_cut(positions: &[DVec3], colors: &mut [Color], plane: &Plane, half_w
 }
 
 /// A rectangle in the plane, along the axis where there is one, around the bulk of the points.
-fn plane_corners(subject: Subject<'_>, plane: &Plane, axis: Option<&AxisEstimate>) -> [DVec3; 4] {
+fn plane_corners(shown: &ShownPoints, plane: &Plane, axis: Option<&AxisEstimate>) -> [DVec3; 4] {
     let along = axis
         .map(|a| a.direction - a.direction.dot(plane.normal) * plane.normal)
         .and_then(DVec3::try_normalize)
@@ -222,7 +227,7 @@ fn plane_corners(subject: Subject<'_>, plane: &Plane, axis: Option<&AxisEstimate
         let q = p - plane.point;
         DVec3::new(q.dot(along), q.dot(across), 0.0)
     };
-    let flat: Vec<DVec3> = bulk_sample(subject.shown).map(in_plane).collect();
+    let flat: Vec<DVec3> = bulk_sample(shown).map(in_plane).collect();
     let extent = Extent::robust(&flat).unwrap_or(Extent {
         min: DVec3::NEG_ONE,
         max: DVec3::ONE,
@@ -245,13 +250,13 @@ fn add_plane(
     settings: &SceneSettings<'_>,
     size: f64,
 ) {
-    let corners = plane_corners(subject, plane, settings.axis);
-    if settings.overlays.has(Overlay::Plane) {
-        let edge = match settings.theme {
+    let corners = plane_corners(subject.shown, plane, settings.axis);
+    if settings.has(Overlay::Plane) {
+        let edge = match settings.theme() {
             Theme::Dark => PLANE,
             Theme::Light => [0x3a, 0x6e, 0xa5, 255],
         };
-        let opacity = if settings.theme == Theme::Dark { 52 } else { 64 };
+        let opacity = if settings.theme() == Theme::Dark { 52 } else { 64 };
         scene.polygons.push(Polygon {
             corners_in_world: corners.to_vec(),
             color: [edge[0], edge[1], edge[2], opacity],
@@ -262,7 +267,7 @@ fn add_plane(
                 .push(Line::new(corners[i], corners[(i + 1) % 4], edge, 1.4).shining_through(0.3));
         }
     }
-    if settings.overlays.has(Overlay::Normal) {
+    if settings.has(Overlay::Normal) {
         let tip = plane.point + 0.4 * size * plane.normal;
         let (a, b) = plane.normal.any_orthonormal_pair();
         let line = |from, to| Line::new(from, to, SKY, 2.2).shining_through(0.5);
@@ -279,8 +284,8 @@ fn add_center_and_viewpoint(scene: &mut Scene, subject: Subject<'_>, settings: &
     let (center, viewpoint) = (subject.analysis.center, subject.analysis.params.viewpoint);
     let dark = [0x10, 0x12, 0x14, 255];
     let yellow = [0xf0, 0xe4, 0x42, 255];
-    if settings.overlays.has(Overlay::Viewpoint) {
-        let quiet = settings.theme.quiet_ink();
+    if settings.has(Overlay::Viewpoint) {
+        let quiet = settings.theme().quiet_ink();
         scene.lines.push(
             Line::new(viewpoint, center, quiet, 1.4)
                 .dashed()
@@ -292,7 +297,7 @@ fn add_center_and_viewpoint(scene: &mut Scene, subject: Subject<'_>, settings: &
                 .shining_through(1.0),
         );
     }
-    if settings.overlays.has(Overlay::Center) {
+    if settings.has(Overlay::Center) {
         scene.lines.push(
             Line::new(center, center, yellow, 8.0)
                 .outlined(dark, 1.5)
@@ -301,7 +306,7 @@ fn add_center_and_viewpoint(scene: &mut Scene, subject: Subject<'_>, settings: &
     }
 }
 
-/// Every so many of `count`, at most `most` of them, spread evenly.
+/// At most `most` of `count` indices, spread evenly.
 fn sample(count: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..count).step_by(count.div_ceil(most).max(1))
 }

@@ -1,5 +1,6 @@
-//! The points that are shown, and which of them the method used.
+//! The points that are shown, with their places among the points that the method used.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -22,18 +23,18 @@ pub struct ShownPoints {
     pub labels: Option<Arc<Vec<i32>>>,
     /// For each point its index in the analysis' surface.
     pub in_surface: Places,
-    /// For each point the file's point that it stands for; `None` where each is the file's own.
+    /// For each point the index of its point in the file; `None` if the points are the file's own.
     pub in_file: Option<Vec<usize>>,
-    /// What the bulk of the points spans.
+    /// The extent of the bulk of the points.
     pub extent: Extent,
-    /// Positions less the extent's center, as the renderer wants them.
+    /// Positions relative to the extent's center, as the renderer needs them.
     pub local_positions: Arc<[Vec3]>,
 }
 
-/// For each of some points its place among others, or none: four bytes a point.
+/// The optional place of each point among others: four bytes per point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Places {
-    /// Empty where no point has a place.
+    /// Empty if no point has a place.
     of: Vec<u32>,
     len: usize,
 }
@@ -46,7 +47,7 @@ impl Places {
         Self { of: Vec::new(), len }
     }
 
-    /// How many points there are, with a place or without.
+    /// The number of points, with a place or without.
     pub fn len(&self) -> usize {
         self.len
     }
@@ -56,7 +57,7 @@ impl Places {
         self.len == 0
     }
 
-    /// The place of a point; `None` also where there is no such point.
+    /// The place of a point; `None` also if there is no such point.
     pub fn get(&self, point: usize) -> Option<usize> {
         let place = self.of.get(point).copied();
         place
@@ -91,8 +92,8 @@ impl ShownPoints {
         Self::bare(cloud).analyzed(cloud, analysis)
     }
 
-    /// As [`ShownPoints::new`], of points that were shown [`ShownPoints::bare`] before: what can be is
-    /// shared with them.
+    /// [`ShownPoints::new`] for points that were shown [`ShownPoints::bare`] before, with which it shares its columns where
+    /// possible.
     #[must_use]
     pub fn analyzed(&self, cloud: &Cloud, analysis: &Analysis) -> Self {
         let surface = analysis.surface.points();
@@ -153,12 +154,20 @@ impl ShownPoints {
         }
     }
 
-    /// How many points there are.
+    /// Values of the file's points as values of the shown points.
+    pub(super) fn of_file<'a>(&self, values: &'a [i32]) -> Cow<'a, [i32]> {
+        match &self.in_file {
+            Some(in_file) => in_file.iter().map(|&i| values[i]).collect(),
+            None => values.into(),
+        }
+    }
+
+    /// The number of points.
     pub fn len(&self) -> usize {
         self.positions.len()
     }
 
-    /// Whether there is none.
+    /// Whether there is no point.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }

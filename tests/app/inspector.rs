@@ -5,9 +5,7 @@ use std::time::Duration;
 
 use crate::helpers::driving::{act, app, asset, settle, with_sample};
 use axiscope::app::command_line;
-use axiscope::app::{
-    App, Command, PlaneChoice, Sample, Session, SessionError, Source, Tool, analysis_options, quoted,
-};
+use axiscope::app::{App, Command, PlaneChoice, Sample, Session, SessionError, Source, Tool, quoted};
 use axiscope::fruit::Request;
 use axiscope::method::{Aggregation, CenterMethod, Params, Preset, analyze};
 use axiscope::render::Viewport;
@@ -551,7 +549,7 @@ fn the_copied_command_line_gives_the_same_result() {
         .arg("analyze")
         .arg(asset("pepper.ply"))
         .args(["--format", "json"]);
-    command.args(analysis_options(&request(&app)));
+    command.args(request(&app).options());
     let output = command.assert().success().get_output().stdout.clone();
     let report: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     let best = analysis.best.expect("a plane");

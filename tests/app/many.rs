@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 use crate::helpers::driving::{act, app, set, settle};
 use crate::helpers::peppers::{make_older, write_peppers};
 use axiscope::app::many::{
-    Column, Filter, FolderCommand, Sort, SweepWish, TableRow, Tagged, evaluate_command_line, ordered,
+    Column, Filter, ManyCommand, Sort, SweepRanges, TableRow, evaluate_command_line, ordered,
 };
 use axiscope::app::{App, Command, Session};
-use axiscope::evaluate::{Row, TruthChoice, examine};
+use axiscope::evaluate::{Outcome, Row, Tagged, TruthChoice, examine};
 use axiscope::fruit::Fruit;
 use proptest::prelude::*;
 use tempfile::TempDir;
@@ -25,7 +25,7 @@ fn opened(folder: &Path, cache: &Path) -> App {
 }
 
 fn rows(app: &App) -> Vec<Row> {
-    let rows = app.state().folder.rows.iter();
+    let rows = app.state().many.rows.iter();
     rows.map(|row| {
         row.outcome
             .as_ref()
@@ -36,7 +36,7 @@ fn rows(app: &App) -> Vec<Row> {
 }
 
 fn names_in_order(app: &App) -> Vec<String> {
-    let folder = &app.state().folder;
+    let folder = &app.state().many;
     folder
         .order
         .iter()
@@ -44,8 +44,8 @@ fn names_in_order(app: &App) -> Vec<String> {
         .collect()
 }
 
-fn folder(command: FolderCommand) -> Command {
-    Command::Folder(command)
+fn folder(command: ManyCommand) -> Command {
+    Command::Many(command)
 }
 
 #[test]
@@ -55,14 +55,14 @@ fn a_small_folder_is_evaluated_as_it_is_opened_and_rows_equal_examine_s() {
     let paths = write_peppers(&set, 4);
     let app = opened(&set, &dir.path().join("cache"));
     assert_eq!(app.state().entries.len(), 4);
-    assert_eq!(app.state().folder.missing, 0);
-    assert!(app.state().folder.progress.is_none());
+    assert_eq!(app.state().many.missing, 0);
+    assert!(app.state().many.progress.is_none());
     let request = app.state().settings.request.clone();
     for (row, path) in rows(&app).iter().zip(&paths) {
-        let fruit = Fruit::read(path, request.unit, &request.peduncle).expect("a fruit");
+        let fruit = Fruit::read(path, &request).expect("a fruit");
         let examined = examine(fruit, &request, &()).expect("analyzed");
         let name = path.file_name().expect("a name").to_string_lossy();
-        assert_eq!(*row, Row::of(&name, &examined, TruthChoice::Auto));
+        assert_eq!(*row, Outcome::of(&name, &examined).against(TruthChoice::Auto));
         assert!(row.error_deg.is_some() && row.peduncle_error_deg.is_some());
     }
 }
@@ -155,17 +155,17 @@ fn called_off_and_taken_up_again_is_as_unbroken() {
     app.apply(Command::Open(vec![set]));
     let began = Instant::now();
     // Until the first rows are there.
-    while app.state().folder.progress.is_none_or(|p| p.done < 2) && app.is_busy() {
+    while app.state().many.progress.is_none_or(|p| p.done < 2) && app.is_busy() {
         app.update(Duration::from_millis(50));
         assert!(began.elapsed() < Duration::from_mins(1));
     }
-    app.apply(folder(FolderCommand::Cancel));
+    app.apply(folder(ManyCommand::Cancel));
     settle(&mut app);
-    let missing = app.state().folder.missing;
+    let missing = app.state().many.missing;
     assert!((1..=38).contains(&missing), "{missing} are missing");
-    assert!(app.state().folder.was_cancelled);
-    act(&mut app, folder(FolderCommand::Evaluate));
-    assert_eq!(app.state().folder.missing, 0);
+    assert!(app.state().many.was_cancelled);
+    act(&mut app, folder(ManyCommand::Evaluate));
+    assert_eq!(app.state().many.missing, 0);
     assert_eq!(rows(&app), unbroken);
 }
 
@@ -178,16 +178,16 @@ fn changed_parameters_make_rows_stale_and_old_ones_bring_them_back() {
     let before = rows(&app);
     let reads = app.background_reads();
     set(&mut app, |r| r.params.u = 9);
-    let folder_state = &app.state().folder;
+    let folder_state = &app.state().many;
     // The current cloud is analyzed anyway.
     assert_eq!(folder_state.missing, 2);
     assert!(!folder_state.rows[0].is_stale && folder_state.rows[1].is_stale);
-    act(&mut app, folder(FolderCommand::Evaluate));
-    assert_eq!(app.state().folder.missing, 0);
+    act(&mut app, folder(ManyCommand::Evaluate));
+    assert_eq!(app.state().many.missing, 0);
     assert_ne!(rows(&app)[1].best, None);
     assert_ne!(rows(&app), before);
     act(&mut app, Command::Undo);
-    assert_eq!(app.state().folder.missing, 0, "they come from the cache");
+    assert_eq!(app.state().many.missing, 0, "they come from the cache");
     assert_eq!(rows(&app), before);
     assert_eq!(app.background_reads(), reads, "and no file is read for that");
 }
@@ -208,7 +208,7 @@ fn what_cannot_be_read_is_a_row_and_folders_of_all_kinds_open() {
         link
     };
     let app = opened(&set, &dir.path().join("cache"));
-    let names: Vec<_> = app.state().folder.rows.iter().map(|r| r.name.as_str()).collect();
+    let names: Vec<_> = app.state().many.rows.iter().map(|r| r.name.as_str()).collect();
     if cfg!(unix) {
         assert_eq!(
             names,
@@ -244,21 +244,21 @@ fn previous_and_next_follow_the_table() {
         by: Column::TrueError,
         is_descending: true,
     };
-    act(&mut app, folder(FolderCommand::Sort(sort)));
+    act(&mut app, folder(ManyCommand::Sort(sort)));
     let worst_first = names_in_order(&app);
     let errors: Vec<f64> = app
         .state()
-        .folder
+        .many
         .order
         .iter()
         .map(|&p| {
-            app.state().folder.rows[p]
+            app.state().many.rows[p]
                 .error_deg(TruthChoice::Truth)
                 .expect("an error")
         })
         .collect();
     assert!(errors.is_sorted_by(|a, b| a >= b), "{errors:?}");
-    let worst = app.state().folder.order[0];
+    let worst = app.state().many.order[0];
     act(&mut app, Command::Show(worst));
     for name in &worst_first[1..] {
         act(&mut app, Command::Go(1));
@@ -273,7 +273,7 @@ fn previous_and_next_follow_the_table() {
         above_deg: Some(0.5 * (errors[1] + errors[2])),
         ..Filter::default()
     };
-    act(&mut app, folder(FolderCommand::Filter(Box::new(filter))));
+    act(&mut app, folder(ManyCommand::Filter(Box::new(filter))));
     assert_eq!(names_in_order(&app), worst_first[..2]);
     act(&mut app, Command::Go(-1));
     assert_eq!(
@@ -290,7 +290,7 @@ fn files_that_have_changed_are_evaluated_when_asked_again() {
     let mut app = opened(&set, &dir.path().join("cache"));
     let before = rows(&app);
     std::fs::remove_file(paths[1].with_extension("truth.json")).expect("removed");
-    act(&mut app, folder(FolderCommand::Evaluate));
+    act(&mut app, folder(ManyCommand::Evaluate));
     let after = rows(&app);
     assert_eq!(after[0], before[0]);
     assert_eq!(
@@ -309,7 +309,7 @@ fn a_large_folder_waits_to_be_asked() {
     }
     let app = opened(&set, &dir.path().join("cache"));
     assert_eq!(app.state().entries.len(), 201);
-    assert_eq!(app.state().folder.missing, 200, "all but the current one");
+    assert_eq!(app.state().many.missing, 200, "all but the current one");
     assert_eq!(app.background_reads(), 0);
 }
 
@@ -324,29 +324,29 @@ fn saved_results_are_those_of_the_command_line_that_is_copied() {
         note: "odd".into(),
         ..Tagged::default().with_tags("leaf")
     };
-    act(&mut app, folder(FolderCommand::Tag { place: 2, tagged }));
+    act(&mut app, folder(ManyCommand::Tag { place: 2, tagged }));
     set(&mut app, |r| r.params.u = 7);
-    act(&mut app, folder(FolderCommand::Against(TruthChoice::Peduncle)));
+    act(&mut app, folder(ManyCommand::Against(TruthChoice::Peduncle)));
     let into = dir.path().to_owned();
-    act(&mut app, folder(FolderCommand::SaveResults(into.clone())));
+    act(&mut app, folder(ManyCommand::SaveResults(into.clone())));
     assert!(
         app.state()
             .messages
             .iter()
             .any(|m| m.text.contains("once all open clouds are evaluated"))
     );
-    act(&mut app, folder(FolderCommand::Evaluate));
-    let wish = SweepWish {
+    act(&mut app, folder(ManyCommand::Evaluate));
+    let ranges = SweepRanges {
         u: [5, 7],
         tau_cm_per_rad: [0.0, 1.0],
         tau_step_cm_per_rad: 0.5,
-        ..SweepWish::default()
+        ..SweepRanges::default()
     };
-    act(&mut app, folder(FolderCommand::Wish(Box::new(wish))));
-    act(&mut app, folder(FolderCommand::Sweep));
-    assert_eq!(app.state().folder.sweep.clouds, [3, 4]);
+    act(&mut app, folder(ManyCommand::SweepRanges(Box::new(ranges))));
+    act(&mut app, folder(ManyCommand::Sweep));
+    assert_eq!(app.state().many.sweep.clouds, [3, 4]);
     for _ in 0..2 {
-        act(&mut app, folder(FolderCommand::SaveResults(into.clone())));
+        act(&mut app, folder(ManyCommand::SaveResults(into.clone())));
     }
     let saved = into.join("axiscope-results");
     assert!(
@@ -404,32 +404,32 @@ fn sort_filter_and_sweep_survive_a_restart() {
         by: Column::Lead,
         is_descending: true,
     };
-    act(&mut app, folder(FolderCommand::Sort(sort)));
+    act(&mut app, folder(ManyCommand::Sort(sort)));
     let filter = Filter {
         search: "pepper".into(),
         above_deg: Some(1.5),
         ..Filter::default()
     };
-    act(&mut app, folder(FolderCommand::Filter(Box::new(filter))));
-    act(&mut app, folder(FolderCommand::Against(TruthChoice::Truth)));
-    assert_eq!(app.state().folder.folders, [dir.path()]);
+    act(&mut app, folder(ManyCommand::Filter(Box::new(filter))));
+    act(&mut app, folder(ManyCommand::Against(TruthChoice::Truth)));
+    assert_eq!(app.state().many.folders, [dir.path()]);
     let path = dir.path().join("session.json");
     Session::of(app.state()).write(&path).expect("it can be kept");
     let kept = Session::read(&path).expect("it was kept");
-    assert_eq!(kept.folder.folders(), [dir.path()]);
+    assert_eq!(kept.many.folders(), [dir.path()]);
     act(&mut app, Command::Close);
     assert!(
-        Session::of(app.state()).folder.folders().is_empty(),
+        Session::of(app.state()).many.folders().is_empty(),
         "not as a whole any more"
     );
     let again = App::new(
         Session::read(&path).expect("it was kept"),
         &(std::sync::Arc::new(|| {}) as _),
     );
-    let state = again.expect("threads can be started").state().folder.clone();
+    let state = again.expect("threads can be started").state().many.clone();
     assert_eq!(
         (state.sort, &state.filter, state.against),
-        (sort, &app.state().folder.filter, TruthChoice::Truth)
+        (sort, &app.state().many.filter, TruthChoice::Truth)
     );
 }
 

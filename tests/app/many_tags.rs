@@ -4,8 +4,9 @@ use std::path::Path;
 
 use crate::helpers::driving::{act, app, set, settle};
 use crate::helpers::peppers::write_peppers;
-use axiscope::app::many::{FolderCommand, TAGS_FILE, Tagged};
+use axiscope::app::many::ManyCommand;
 use axiscope::app::{App, Command};
+use axiscope::evaluate::{TAGS_FILE, Tagged};
 use tempfile::TempDir;
 
 /// A program with the folder open, that keeps its rows in `cache`.
@@ -16,8 +17,8 @@ fn opened(folder: &Path, cache: &Path) -> App {
     app
 }
 
-fn folder(command: FolderCommand) -> Command {
-    Command::Folder(command)
+fn folder(command: ManyCommand) -> Command {
+    Command::Many(command)
 }
 
 #[test]
@@ -32,22 +33,22 @@ fn tags_are_kept_in_a_file_and_undone_in_turn_with_settings() {
             note: note.into(),
             ..Tagged::default().with_tags(tags)
         };
-        act(app, folder(FolderCommand::Tag { place, tagged }));
+        act(app, folder(ManyCommand::Tag { place, tagged }));
         act(app, Command::EndGesture);
     };
-    let tags = |app: &App, place: usize| app.state().folder.rows[place].tagged.tags.join("+");
+    let tags = |app: &App, place: usize| app.state().many.rows[place].tagged.tags.join("+");
     tag(&mut app, 1, " leaf,  hidden  peduncle,leaf", "see row 7");
     assert_eq!(tags(&app, 1), "hidden peduncle+leaf");
     set(&mut app, |r| r.params.u = 8);
     tag(&mut app, 0, "leaf", "");
-    assert_eq!(*app.state().folder.known_tags, ["hidden peduncle", "leaf"]);
+    assert_eq!(*app.state().many.known_tags, ["hidden peduncle", "leaf"]);
 
     let again = opened(&set_folder, &cache);
     assert_eq!(
         (tags(&again, 0), tags(&again, 1)),
         ("leaf".into(), "hidden peduncle+leaf".into())
     );
-    assert_eq!(again.state().folder.rows[1].tagged.note, "see row 7");
+    assert_eq!(again.state().many.rows[1].tagged.note, "see row 7");
     drop(again);
 
     act(&mut app, Command::Undo);
@@ -75,13 +76,13 @@ fn tags_are_kept_in_a_file_and_undone_in_turn_with_settings() {
     for note in ["s", "so", "so d", "so dark"] {
         let tagged = Tagged {
             note: note.into(),
-            ..app.state().folder.rows[0].tagged.clone()
+            ..app.state().many.rows[0].tagged.clone()
         };
-        app.apply(folder(FolderCommand::Tag { place: 0, tagged }));
+        app.apply(folder(ManyCommand::Tag { place: 0, tagged }));
     }
     settle(&mut app);
     act(&mut app, Command::Undo);
-    assert_eq!(app.state().folder.rows[0].tagged.note, "");
+    assert_eq!(app.state().many.rows[0].tagged.note, "");
 }
 
 #[test]
@@ -107,13 +108,13 @@ fn tags_that_make_no_sense_are_never_written_over() {
         let tagged = Tagged::default().with_tags("mine");
         act(
             &mut app,
-            folder(FolderCommand::Tag {
+            folder(ManyCommand::Tag {
                 place: 0,
                 tagged: tagged.clone(),
             }),
         );
         assert_eq!(says(&app), 1);
-        assert_eq!(app.state().folder.rows[0].tagged, tagged, "it stays in memory");
+        assert_eq!(app.state().many.rows[0].tagged, tagged, "it stays in memory");
         assert_eq!(
             std::fs::read_to_string(set.join(TAGS_FILE)).expect("there"),
             content
@@ -132,14 +133,14 @@ fn tags_that_cannot_be_saved_are_told_and_stay() {
     let tagged = Tagged::default().with_tags("late");
     act(
         &mut app,
-        folder(FolderCommand::Tag {
+        folder(ManyCommand::Tag {
             place: 1,
             tagged: tagged.clone(),
         }),
     );
     let mut messages = app.state().messages.iter();
     assert!(messages.any(|m| m.is_error && m.text.contains("could not be saved")));
-    assert_eq!(app.state().folder.rows[1].tagged, tagged);
+    assert_eq!(app.state().many.rows[1].tagged, tagged);
 }
 
 #[test]
@@ -154,9 +155,9 @@ fn another_program_s_tags_are_kept() {
     for place in 0..3 {
         let app = if place == 1 { &mut other } else { &mut one };
         let tagged = Tagged::default().with_tags("seen");
-        act(app, folder(FolderCommand::Tag { place, tagged }));
+        act(app, folder(ManyCommand::Tag { place, tagged }));
     }
-    let tags = axiscope::app::many::read_tags(&set).expect("they can be read");
+    let tags = axiscope::evaluate::read_tags(&set).expect("they can be read");
     assert_eq!(tags.len(), 3);
     assert!(!set.join(format!("{TAGS_FILE}.tmp")).exists());
 }

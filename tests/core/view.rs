@@ -10,8 +10,8 @@ use axiscope::method::{
 };
 use axiscope::render::{Camera, Insets, Projection, Viewport};
 use axiscope::view::{
-    Annotation, Coloring, ColoringError, NEUTRAL, Overlay, Overlays, Page, SceneSettings, ShownPoints,
-    Subject, Theme, ViewPreset, annotate, build_scene, color_points, framed_points, insets, value_color,
+    Coloring, ColoringError, NEUTRAL, Overlay, Overlays, Page, Primitive, SceneSettings, ShownPoints, Style,
+    Subject, Theme, ViewPreset, build_scene, color_points, framed_points, insets, lay_out, value_color,
 };
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -298,17 +298,19 @@ fn each_overlay_has_a_switch() {
         confidence: None,
     };
     let scene = |overlays: &Overlays| {
+        let style = Style {
+            overlays: overlays.clone(),
+            ..Style::default()
+        };
         let settings = SceneSettings {
-            overlays,
-            theme: Theme::Dark,
+            style: &style,
             point_size_px: 3.0,
-            eye_dome_strength: 1.0,
             plane: Some(fixture.detail.plane),
             axis: fixture.analysis.axis.as_ref(),
             reference: Some(&reference),
             references: std::slice::from_ref(&reference),
         };
-        assert!(framed_points(fixture.subject(), &settings).len() > 400);
+        assert!(framed_points(&fixture.shown, &settings).len() > 400);
         build_scene(fixture.subject(), &colored, &settings)
     };
     let bare = scene(&Overlays::none());
@@ -316,10 +318,10 @@ fn each_overlay_has_a_switch() {
         (bare.points.len(), bare.lines.len(), bare.polygons.len()),
         (1, 0, 0)
     );
-    let annotations = [Overlay::Legend, Overlay::Scale, Overlay::Triad, Overlay::Caption];
+    let written = [Overlay::Legend, Overlay::Scale, Overlay::Triad, Overlay::Caption];
     for overlay in Overlay::ALL {
         let one: Overlays = overlay.name().parse().expect("its own name");
-        assert_eq!(scene(&one) == bare, annotations.contains(&overlay), "{overlay:?}");
+        assert_eq!(scene(&one) == bare, written.contains(&overlay), "{overlay:?}");
     }
     let ghost = scene(&"ghost".parse().expect("a name"));
     let origin = ghost.origin_in_world;
@@ -349,8 +351,8 @@ fn nothing_is_cut_off_and_nothing_covers_anything() {
                 legend: Some(&colored.legend),
                 scale_unit: Some("cm"),
                 has_triad: true,
-                caption: &caption,
-                label: Some((fixture.analysis.center - 3.0 * DVec3::Y, "9.9° apart")),
+                caption: caption.to_vec(),
+                label: Some((fixture.analysis.center - 3.0 * DVec3::Y, "9.9° apart".into())),
             };
             let camera = ViewPreset::Camera.camera(
                 fixture.cloud.positions(),
@@ -361,14 +363,14 @@ fn nothing_is_cut_off_and_nothing_covers_anything() {
                 insets(&page, &measure),
             );
             let mut boxes: Vec<(DVec2, DVec2, String)> = Vec::new();
-            for annotation in annotate(&page, &camera, &measure) {
-                let Annotation::Text {
+            for primitive in lay_out(&page, &camera, &measure) {
+                let Primitive::Text {
                     at,
                     anchor,
                     size_px,
                     text,
                     ..
-                } = annotation
+                } = primitive
                 else {
                     continue;
                 };

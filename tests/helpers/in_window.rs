@@ -5,8 +5,10 @@ use std::time::{Duration, Instant};
 
 use axiscope::app::{Command, Session, State};
 use axiscope::ui::{Start, Window};
-use egui::{Key, Modifiers, Vec2};
-use egui_kittest::{Harness, SnapshotOptions};
+use egui::{Key, Modifiers, Pos2, Rect, Vec2};
+use egui_kittest::kittest::Queryable;
+use egui_kittest::{Harness, SnapshotOptions, image_snapshot_options};
+use image::imageops;
 
 /// A window that tests drive.
 pub type Windowed = Harness<'static, Window>;
@@ -63,11 +65,38 @@ pub fn press(harness: &mut Windowed, modifiers: Modifiers, key: Key) {
     settle(harness);
 }
 
-/// Compares with the committed picture in a folder: a few pixels may differ a little, as between drivers.
+/// Compares with the committed picture in a folder.
 pub fn compare(harness: &mut Windowed, folder: &str, name: &str) {
-    let options = SnapshotOptions::new()
+    harness.snapshot_options(name, &snapshot_options(folder));
+}
+
+/// Compares the 3-D view alone with the committed picture in a folder, as [`compare`] does: what stands around it is in
+/// other pictures.
+pub fn compare_view(harness: &mut Windowed, folder: &str, name: &str) {
+    let view = harness.get_by_label_contains("3-D view of").rect();
+    compare_part(harness, view, folder, name);
+}
+
+/// Compares what lies left of the 3-D view with the committed picture in a folder: the parameters, and the lists behind them.
+pub fn compare_left(harness: &mut Windowed, folder: &str, name: &str) {
+    let view = harness.get_by_label_contains("3-D view of").rect();
+    let left = Rect::from_min_max(Pos2::ZERO, Pos2::new(view.min.x, view.max.y));
+    compare_part(harness, left, folder, name);
+}
+
+/// Compares a part of the window, in physical pixels.
+fn compare_part(harness: &mut Windowed, part: Rect, folder: &str, name: &str) {
+    let pixels = |length: f32| length.round() as u32;
+    let whole = harness.render().expect("the driver draws");
+    let (left, top) = (pixels(part.min.x), pixels(part.min.y));
+    let cropped = imageops::crop_imm(&whole, left, top, pixels(part.width()), pixels(part.height()));
+    image_snapshot_options(&cropped.to_image(), name, &snapshot_options(folder));
+}
+
+/// A few pixels may differ a little, as between drivers.
+fn snapshot_options(folder: &str) -> SnapshotOptions {
+    SnapshotOptions::new()
         .output_path(folder)
         .threshold(2.0)
-        .max_failed_pixels(10);
-    harness.snapshot_options(name, &options);
+        .max_failed_pixels(10)
 }

@@ -156,7 +156,8 @@ fn two_hundred_kills_lose_nothing_that_was_shown_as_saved() {
         let model = Model::after(&known);
         let history = store.history();
         let notes: Vec<usize> = history
-            .within_reach()
+            .steps()
+            .iter()
             .map(|state| state.judgment.note.parse().unwrap())
             .collect();
         assert_eq!(

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use crate::helpers::command_line::{json, run, simulate};
 use axiscope::evaluate::{Row, Summary};
+use axiscope::fruit::sha256_hex;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::Value;
@@ -26,6 +27,18 @@ fn evaluate(set: &Path, out: &Path, options: &str) -> command_line::Ran {
 fn rows(out: &Path) -> Vec<std::collections::HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(out.join("results.csv")).unwrap();
     reader.deserialize().map(Result::unwrap).collect()
+}
+
+/// The file of an output folder's stored rows, and its lines.
+fn stored_rows(out: &Path) -> (std::path::PathBuf, Vec<String>) {
+    let files: Vec<_> = std::fs::read_dir(out.join("rows"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    assert_eq!(files.len(), 1, "{files:?}");
+    let text = std::fs::read_to_string(&files[0]).unwrap();
+    let lines = text.lines().filter(|line| !line.is_empty());
+    (files[0].clone(), lines.map(str::to_owned).collect())
 }
 
 #[test]
@@ -78,38 +91,63 @@ fn a_resumed_run_and_shards_give_the_unbroken_run_s_bytes() {
     let read = |name: &str, file: &str| std::fs::read(path(name).join(file)).unwrap();
     evaluate(&set, &path("whole"), "--voxel-cm 0.3");
 
-    // Broken off after the first cloud: the others' rows are gone.
+    // Broken off after the first cloud, in the middle of the second row.
     evaluate(&set, &path("broken"), "--voxel-cm 0.3");
-    let mut kept: Vec<_> = std::fs::read_dir(path("broken").join("rows"))
-        .unwrap()
-        .map(|e| e.unwrap().path())
-        .collect();
-    kept.sort();
-    assert_eq!(kept.len(), 3);
-    for row in &kept[1..] {
-        std::fs::remove_file(row).unwrap();
-    }
-    std::fs::write(&kept[1], "half a row").unwrap();
+    let (file, lines) = stored_rows(&path("broken"));
+    assert_eq!(lines.len(), 3);
+    std::fs::write(
+        &file,
+        format!("{}\n{}", lines[0], &lines[1][..lines[1].len() / 2]),
+    )
+    .unwrap();
     evaluate(&set, &path("broken"), "--voxel-cm 0.3 --resume");
     for file in ["results.csv", "results.parquet", "summary.json", "report.html"] {
         assert_eq!(read("whole", file), read("broken", file), "{file}");
     }
+    assert_eq!(
+        stored_rows(&path("broken")).1.len(),
+        4,
+        "two were added to one and a half"
+    );
 
-    // What is kept is used: a row changed by hand shows up, but not for other settings.
-    let row = std::fs::read_to_string(&kept[0]).unwrap();
-    std::fs::write(&kept[0], row.replace("\"warnings\":\"", "\"warnings\":\"kept ")).unwrap();
-    evaluate(&set, &path("broken"), "--voxel-cm 0.3 --resume");
-    assert!(
+    // What is kept is used: a row changed by hand shows up, but not for other settings, nor without being asked.
+    let (file, lines) = stored_rows(&path("broken"));
+    let (_, row) = lines[0].split_once(' ').unwrap();
+    let changed = row.replace("\"warnings\":\"", "\"warnings\":\"kept ");
+    let sum = &sha256_hex(changed.as_bytes())[..16];
+    std::fs::write(
+        &file,
+        lines.join("\n").replace(&lines[0], &format!("{sum} {changed}")),
+    )
+    .unwrap();
+    let is_kept = || {
         String::from_utf8(read("broken", "results.csv"))
             .unwrap()
             .contains("kept ")
-    );
+    };
+    evaluate(&set, &path("broken"), "--voxel-cm 0.3 --resume");
+    assert!(is_kept());
     evaluate(&set, &path("broken"), "--voxel-cm 0.4 --resume");
-    assert!(
-        !String::from_utf8(read("broken", "results.csv"))
-            .unwrap()
-            .contains("kept ")
-    );
+    assert!(!is_kept());
+    evaluate(&set, &path("broken"), "--voxel-cm 0.3");
+    assert!(!is_kept());
+    evaluate(&set, &path("broken"), "--voxel-cm 0.3 --resume");
+    assert!(!is_kept(), "the newest row counts");
+
+    // A file of the same size and time is read all the same.
+    let cloud = set.join("pepper_000.ply");
+    let time = std::fs::metadata(&cloud).unwrap().modified().unwrap();
+    let length = usize::try_from(std::fs::metadata(&cloud).unwrap().len()).unwrap();
+    let bytes = std::fs::read(&cloud).unwrap();
+    std::fs::write(&cloud, vec![b'x'; length]).unwrap();
+    let file = std::fs::File::options().append(true).open(&cloud).unwrap();
+    file.set_modified(time).unwrap();
+    evaluate(&set, &path("broken"), "--voxel-cm 0.3 --resume");
+    let failed = |out: &Path| rows(out).iter().filter(|row| row["failed"] == "1").count();
+    assert_eq!(failed(&path("broken")), 1);
+    std::fs::write(&cloud, bytes).unwrap();
+    evaluate(&set, &path("broken"), "--voxel-cm 0.3 --resume");
+    assert_eq!(read("whole", "results.csv"), read("broken", "results.csv"));
 
     let mut joined = Vec::new();
     for shard in 1..=2 {

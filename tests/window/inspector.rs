@@ -2,7 +2,7 @@
 
 use crate::helpers::driving::asset;
 use crate::helpers::in_window;
-use crate::helpers::in_window::{Windowed, apply, compare, press, settle};
+use crate::helpers::in_window::{Windowed, apply, compare, compare_view, press, settle};
 use axiscope::app::{Command, PlaneChoice, Sample, Session, Tool};
 use axiscope::method::Preset;
 use axiscope::ui::{Pane, Start, Window};
@@ -26,6 +26,12 @@ fn snapshot(harness: &mut Windowed, name: &str) {
     compare(harness, "screenshots/window", name);
 }
 
+fn view_snapshot(harness: &mut Windowed, name: &str) {
+    harness.remove_cursor();
+    settle(harness);
+    compare_view(harness, "screenshots/window", name);
+}
+
 fn color(harness: &mut Windowed, coloring: Coloring) {
     let mut style = harness.state().app().state().style.clone();
     style.coloring = coloring;
@@ -42,11 +48,28 @@ fn the_sample_is_shown_analyzed() {
 }
 
 #[test]
+fn warnings_are_listed_behind_their_number() {
+    let mut harness = window();
+    apply(&mut harness, Command::OpenSample(Sample::MissedPepper));
+    apply(&mut harness, Command::UsePreset(Preset::AsPrinted));
+    let warned = harness.state().app().state().warnings.clone();
+    let number = match warned.len() {
+        1 => "1 warning".to_owned(),
+        several => format!("{several} warnings"),
+    };
+    harness.get_by_label(&number).click();
+    settle(&mut harness);
+    for warning in &warned {
+        assert!(harness.query_by_label(warning).is_some(), "{warning}");
+    }
+}
+
+#[test]
 fn each_coloring_has_its_legend() {
     let mut harness = window();
     for coloring in Coloring::ALL {
         color(&mut harness, coloring);
-        snapshot(&mut harness, &format!("color_{}", coloring.name()));
+        view_snapshot(&mut harness, &format!("color_{}", coloring.name()));
     }
 }
 
@@ -96,7 +119,7 @@ fn the_worst_plane_looks_bad() {
     let mut harness = window();
     apply(&mut harness, Command::StepRank(10_000));
     color(&mut harness, Coloring::Score);
-    snapshot(&mut harness, "worst_plane");
+    view_snapshot(&mut harness, "worst_plane");
 }
 
 #[test]
@@ -181,7 +204,7 @@ fn overlays_and_the_axes() {
         assert!(overlays.has(overlay), "{}", overlay.name());
     }
     press(&mut harness, Modifiers::ALT, Key::Num3);
-    snapshot(&mut harness, "overlays");
+    view_snapshot(&mut harness, "overlays");
 }
 
 #[test]
@@ -200,7 +223,7 @@ fn a_narrow_window() {
 
 #[test]
 fn a_screen_of_many_pixels() {
-    let mut harness = window_of([1100.0, 720.0], 2.0, Vec::new());
+    let mut harness = window_of([900.0, 600.0], 2.0, Vec::new());
     assert!((harness.state().app().state().pixels_per_point - 2.0).abs() < 1e-6);
     snapshot(&mut harness, "pixels_per_point_2");
 }
@@ -384,7 +407,7 @@ fn a_saved_view_is_drawn_again_by_the_command_line() {
 fn no_two_actions_share_a_key_and_every_one_is_in_the_help() {
     let harness = window();
     let state = harness.state().app().state();
-    let all = axiscope::ui::window::actions::actions(state);
+    let all = axiscope::ui::actions(state);
     let mut keys: Vec<_> = all.iter().flat_map(|a| a.keys.iter()).collect();
     let count = keys.len();
     keys.sort_by_key(|key| format!("{key:?}"));
@@ -480,7 +503,7 @@ fn every_sample_opens() {
 #[test]
 fn every_panel_comes_to_the_front() {
     let mut harness = window();
-    for pane in [Pane::Hemisphere, Pane::Contributions, Pane::Files] {
+    for pane in [Pane::Hemisphere, Pane::Contributions, Pane::Clouds] {
         harness.get_by_label(pane.title()).click();
         settle(&mut harness);
     }

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use axiscope::app::{AnnotateCommand, App, Command, Session, Tool};
-use axiscope::ui::window::actions::{Action, actions};
+use axiscope::app::{App, Command, Session, Tool, TrueAxesCommand};
+use axiscope::ui::{Action, actions};
 
 /// A cloud, analyzed.
 fn app(folder: &Path) -> App {
@@ -49,9 +49,9 @@ fn a_key_has_one_meaning_in_each_mode() {
         assert_one_meaning(&app, &format!("{tool:?}"));
     }
     app.apply(Command::Use(Tool::Navigate));
-    app.apply(Command::Annotate(AnnotateCommand::Name("Ada".into())));
-    app.apply(Command::Annotate(AnnotateCommand::Edit(true)));
+    app.apply(Command::TrueAxes(TrueAxesCommand::Name("Ada".into())));
+    app.apply(Command::TrueAxes(TrueAxesCommand::Edit(true)));
     app.update(Duration::ZERO);
-    assert!(app.state().annotating.is_editing);
+    assert!(app.state().true_axes.is_editing);
     assert_one_meaning(&app, "setting an axis");
 }

@@ -13,6 +13,7 @@ use crate::geometry::{Extent, Unit};
 
 /// In which of Slicer's frames the cloud was loaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum SlicerFrame {
     /// Left, posterior, superior: Slicer's own choice for a file that does not say.
     #[default]

@@ -1,8 +1,10 @@
 //! The view as a picture of any size.
 
 use super::look::Look;
+use super::stages::Source;
 use crate::app::state::State;
-use crate::render::Image;
+use crate::render::{Image, Viewport};
+use crate::view::{Page, PageFacts};
 
 /// Draws what the window shows, as `render` does; points keep their size relative to the picture.
 #[cfg(feature = "window")]
@@ -11,10 +13,6 @@ pub(in crate::app) fn draw(
     look: &Look,
     [width_px, height_px]: [u32; 2],
 ) -> Result<Image, String> {
-    use crate::render::{Gpu, Viewport, draw_image};
-    use crate::view::annotate;
-    use crate::view::{paint_annotations, text_width_px};
-
     let viewport = Viewport::new(width_px.into(), height_px.into());
     let ratio = picture_scale(state, height_px) / state.pixels_per_point;
     let mut scene = (*look.scene).clone();
@@ -22,23 +20,34 @@ pub(in crate::app) fn draw(
         points.size_px *= ratio;
     }
     scene.scale_lines(crate::view::line_scale(height_px) / state.pixels_per_point);
-    let gpu = Gpu::headless().map_err(|e| e.to_string())?;
-    let mut image =
-        draw_image(&gpu, &scene, &state.camera, width_px, height_px).map_err(|e| e.to_string())?;
-    let written = super::written::Written::of(state, look);
-    let page = written.page(state, viewport);
-    paint_annotations(&mut image, &annotate(&page, &state.camera, &text_width_px))
-        .map_err(|e| e.to_string())?;
-    Ok(image)
-}
-
-/// How many pixels of a picture a logical pixel of the view becomes.
-pub(in crate::app) fn picture_scale(state: &State, height_px: u32) -> f32 {
-    (f64::from(height_px) / state.viewport.height_px) as f32
+    let gpu = crate::render::Gpu::headless().map_err(|e| e.to_string())?;
+    let page = page(state, look, viewport);
+    crate::view::draw_page(&gpu, &scene, &state.camera, &page, [width_px, height_px])
+        .map_err(|e| e.to_string())
 }
 
 /// Without a renderer there are no pictures.
 #[cfg(not(feature = "window"))]
 pub(in crate::app) fn draw(_: &State, _: &Look, _: [u32; 2]) -> Result<Image, String> {
     Err("this build draws no pictures: it lacks the feature `window`.".into())
+}
+
+/// The page over a look, for a view of that size.
+pub fn page<'a>(state: &State, look: &'a Look, viewport: Viewport) -> Page<'a> {
+    let facts = PageFacts {
+        unit: state.walked.as_ref().map(|walked| walked.fruit.unit),
+        shown: &look.shown,
+        analysis: look.analysis.as_deref(),
+        plane: look.plane_index,
+        axis: look.axis.as_ref(),
+        reference: look.reference.as_ref(),
+        legend: &look.legend,
+    };
+    let name = state.source().map(Source::name).unwrap_or_default();
+    Page::new(&facts, &name, &state.shown_style(), viewport)
+}
+
+/// The number of a picture's pixels per logical pixel of the view.
+pub(in crate::app) fn picture_scale(state: &State, height_px: u32) -> f32 {
+    (f64::from(height_px) / state.viewport.height_px) as f32
 }

@@ -1,77 +1,42 @@
-//! What one plane of an analysis looks like: the work a point that every change of plane, coloring or
-//! overlay asks for, done beside the interface.
+//! The look of one plane of an analysis: the work per point that follows every change of plane, coloring or overlay,
+//! done outside of the interface's thread.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::fruit::Fruit;
-use crate::geometry::Cloud;
-use crate::method::{Analysis, AxisEstimate, PlaneDetail, plane_detail};
+use crate::method::{Analysis, AxisEstimate, PlaneDetail};
 use crate::parallel::{Cancelled, Watch};
-use crate::peduncle::PeduncleSource;
-use crate::render::{Color, Scene};
-use crate::view::{
-    Coloring, ColoringError, Legend, NEUTRAL, Overlay, Overlays, SceneSettings, ShownPoints, Subject, Theme,
-    build_bare_scene, build_scene, color_bare, color_labels, color_points,
-};
+use crate::render::Scene;
+use crate::view::{Coloring, ColoringError, Legend, SceneRequest, ShownPoints, Style, compose};
 
-/// How a cloud is drawn, whichever it is.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Style {
-    /// What the points' colors show.
-    pub coloring: Coloring,
-    /// What is drawn over them.
-    pub overlays: Overlays,
-    /// Light on dark, or dark on light.
-    pub theme: Theme,
-    /// A point's diameter in logical pixels; `None` so that the points close up to a surface.
-    pub point_size: Option<f32>,
-    /// Whether depth darkens.
-    pub eye_dome: bool,
-}
-
-impl Default for Style {
-    fn default() -> Self {
-        let mut overlays = Overlays::default();
-        // The window says these elsewhere.
-        overlays.set(Overlay::Caption, false);
-        Self {
-            coloring: Coloring::Side,
-            overlays,
-            theme: Theme::Dark,
-            point_size: None,
-            eye_dome: true,
-        }
-    }
-}
-
-/// What a look is made from.
+/// Everything that a look depends on.
 #[derive(Debug, Clone)]
-pub struct Question {
+pub struct LookRequest {
     /// The cloud's points.
     pub shown: Arc<ShownPoints>,
-    /// The analysis; `None` where there is none.
+    /// The analysis; `None` for a cloud that was not analyzed.
     pub analysis: Option<Arc<Analysis>>,
-    /// The index of the plane that is looked at, in the grid.
+    /// The plane's index in the grid.
     pub plane: Option<usize>,
-    /// The axis that it is compared with.
+    /// The axis that the plane's is compared with.
     pub reference: Option<AxisEstimate>,
-    /// All axes that there are to compare with.
+    /// All axes to compare with.
     pub references: Vec<AxisEstimate>,
-    /// How it is drawn.
+    /// The style of the cloud.
     pub style: Style,
-    /// Physical pixels a point of the style's sizes.
+    /// Physical pixels per logical pixel.
     pub pixels_per_point: f32,
-    /// Contributions d + τξ in centimeters, outside of which points are grayed.
+    /// Contributions d + τξ in centimeters; points outside of the range are grayed.
     pub brush_cm: Option<RangeInclusive<f64>>,
-    /// The cloud, whose peduncle may be told otherwise than by its labels; `None` where it was not analyzed.
+    /// The cloud, whose peduncle may have another source than its labels; `None` if it was not analyzed.
     pub fruit: Option<Arc<Fruit>>,
-    /// What there may be already of the plane.
+    /// The plane's detail, if it was computed before.
     pub detail: Option<Arc<PlaneDetail>>,
 }
 
-/// What came of it.
+/// One plane of an analysis as it is drawn.
 #[derive(Debug, Clone)]
 pub struct Look {
     /// The points that were drawn.
@@ -80,19 +45,19 @@ pub struct Look {
     pub analysis: Option<Arc<Analysis>>,
     /// The plane's index in the grid.
     pub plane_index: Option<usize>,
-    /// Every used point's part in the plane's score.
+    /// The part of every used point in the plane's score.
     pub detail: Option<Arc<PlaneDetail>>,
-    /// The plane's axis (Eq. 16), where it has one.
+    /// The plane's axis (Eq. 16), if it has one.
     pub axis: Option<AxisEstimate>,
     /// The axis that it is compared with.
     pub reference: Option<AxisEstimate>,
-    /// What is drawn.
+    /// The scene.
     pub scene: Arc<Scene>,
-    /// What the colors mean.
+    /// The key to the colors.
     pub legend: Arc<Legend>,
-    /// Why the points are not colored as asked, where they are not.
+    /// The reason why the points are not colored as requested.
     pub fallback: Option<ColoringError>,
-    /// How the contributions are spread.
+    /// The distribution of the contributions.
     pub contributions: Option<Arc<Contributions>>,
 }
 
@@ -147,13 +112,13 @@ pub(in crate::app) fn next_generation() -> u64 {
     GENERATION.fetch_add(1, Ordering::Relaxed)
 }
 
-/// Computes a look. `before` is the one that is on the screen: positions that have not changed keep
-/// their generation, and are not sent to the GPU again.
+/// Computes a look. `before` is the one on the screen: unchanged positions keep their generation, and are not sent
+/// to the GPU again.
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
-pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Result<Look, Cancelled> {
-    let Question {
+/// Returns [`Cancelled`] if the watch calls the work off.
+pub fn look(request: LookRequest, before: Option<&Look>, watch: &dyn Watch) -> Result<Look, Cancelled> {
+    let LookRequest {
         shown,
         analysis,
         plane,
@@ -164,157 +129,43 @@ pub fn look(question: Question, before: Option<&Look>, watch: &dyn Watch) -> Res
         brush_cm,
         fruit,
         detail,
-    } = question;
-    let point_size_px = pixels_per_point * point_size(&style, shown.len());
-    let mut settings = SceneSettings {
-        overlays: &style.overlays,
-        theme: style.theme,
-        point_size_px,
-        eye_dome_strength: if style.eye_dome { 1.0 } else { 0.0 },
-        plane: None,
-        axis: None,
-        reference: reference.as_ref(),
-        references: &references,
-    };
-    let Some(analysis) = analysis else {
-        return Ok(bare_look(
-            shown,
-            reference.clone(),
-            style.coloring,
-            &settings,
-            before,
-        ));
-    };
-    let params = &analysis.params;
-    let detail = match (plane, detail) {
-        (Some(index), None) => Some(Arc::new(plane_detail(
-            &analysis.surface,
-            params.unit,
-            analysis.plane(index),
-            params.viewpoint,
-            watch,
-        )?)),
-        (_, known) => known,
-    };
-    let axis = plane.and_then(|index| analysis.axis_of(index).ok());
-    settings.plane = plane.map(|index| analysis.plane(index));
-    settings.axis = axis.as_ref();
-    let subject = Subject {
-        shown: &shown,
-        analysis: &analysis,
-        detail: detail.as_deref(),
-    };
-    let told = fruit.filter(|_| style.coloring == Coloring::Label);
-    let (mut colored, fallback) = match told.and_then(|fruit| told_labels(&fruit, &shown)).map_or_else(
-        || color_points(subject, style.coloring),
-        |labels| Ok(color_labels(&labels)),
-    ) {
-        Ok(colored) => (colored, None),
-        Err(why) => (color_bare(&shown, style.coloring), Some(why)),
-    };
-    if watch.is_cancelled() {
-        return Err(Cancelled);
-    }
-    if let (Some(range), Some(detail)) = (&brush_cm, &detail) {
-        gray_outside(range, detail, params.tau_cm_per_rad, &shown, &mut colored.colors);
-    }
-    let mut scene = build_scene(subject, &colored, &settings);
+    } = request;
+    let composed = compose(
+        &SceneRequest {
+            shown: &shown,
+            analysis: analysis.as_deref(),
+            plane,
+            detail,
+            reference: reference.as_ref(),
+            references: &references,
+            style: &style,
+            point_size_px: pixels_per_point * style.point_size_in_window(shown.len()),
+            labels: fruit
+                .filter(|_| style.coloring == Coloring::Label)
+                .and_then(|fruit| fruit.labels_by_peduncle()),
+            brush_cm,
+        },
+        watch,
+    )?;
+    let (mut scene, plane) = (composed.scene, composed.plane);
     scene.scale_lines(pixels_per_point);
-    let contributions = detail
-        .as_ref()
-        .and_then(|detail| Contributions::of(detail, params.tau_cm_per_rad));
+    let contributions = (plane.as_ref().zip(analysis.as_ref()))
+        .and_then(|(plane, analysis)| Contributions::of(&plane.detail, analysis.params.tau_cm_per_rad));
     Ok(Look {
         scene: Arc::new(numbered(scene, &shown, before)),
-        legend: Arc::new(colored.legend),
-        shown: shown.clone(),
-        plane_index: plane,
-        detail,
-        axis,
+        legend: Arc::new(composed.colored.legend),
+        plane_index: plane.as_ref().map(|plane| plane.index),
+        detail: plane.as_ref().map(|plane| plane.detail.clone()),
+        axis: plane.and_then(|plane| plane.axis),
         reference,
-        fallback,
+        fallback: composed.fallback,
         contributions: contributions.map(Arc::new),
-        analysis: Some(analysis),
-    })
-}
-
-/// Grays the points whose contribution d + τξ, in centimeters, is outside of a range.
-fn gray_outside(
-    range: &RangeInclusive<f64>,
-    detail: &PlaneDetail,
-    tau_cm_per_rad: f64,
-    shown: &ShownPoints,
-    colors: &mut [Color],
-) {
-    let is_in = |place: Option<usize>| {
-        let partner = place.and_then(|i| detail.points[i].partner);
-        partner.is_some_and(|p| range.contains(&p.score_cm(tau_cm_per_rad)))
-    };
-    for (color, place) in colors.iter_mut().zip(shown.in_surface.iter()) {
-        if !is_in(place) {
-            *color = NEUTRAL;
-        }
-    }
-}
-
-/// The shown points' labels with the peduncle as it was told; `None` where the file's own labels tell it,
-/// or there is none.
-fn told_labels(fruit: &Fruit, shown: &ShownPoints) -> Option<Vec<i32>> {
-    let peduncle = fruit.peduncle.as_ref()?;
-    if peduncle.source == PeduncleSource::Label {
-        return None;
-    }
-    let cloud = fruit.cloud();
-    // What the file calls the peduncle and nobody else does is the fruit's.
-    let of_file = |i: usize| match cloud.labels().map(|labels| labels[i]) {
-        None | Some(Cloud::PEDUNCLE) => Cloud::FRUIT,
-        Some(other) => other,
-    };
-    let mut labels: Vec<i32> = (0..cloud.len()).map(of_file).collect();
-    for &i in &peduncle.in_cloud {
-        labels[i] = Cloud::PEDUNCLE;
-    }
-    Some(match &shown.in_file {
-        Some(in_file) => in_file.iter().map(|&i| labels[i]).collect(),
-        None => labels,
-    })
-}
-
-/// The look of a cloud that was not analyzed.
-fn bare_look(
-    shown: Arc<ShownPoints>,
-    reference: Option<AxisEstimate>,
-    coloring: Coloring,
-    settings: &SceneSettings<'_>,
-    before: Option<&Look>,
-) -> Look {
-    let colored = color_bare(&shown, coloring);
-    let scene = build_bare_scene(&shown, &colored, settings);
-    Look {
-        scene: Arc::new(numbered(scene, &shown, before)),
-        legend: Arc::new(colored.legend),
         shown,
-        analysis: None,
-        plane_index: None,
-        detail: None,
-        axis: None,
-        reference,
-        fallback: None,
-        contributions: None,
-    }
+        analysis,
+    })
 }
 
-/// A point's diameter in logical pixels.
-pub(in crate::app) fn point_size(style: &Style, points: usize) -> f32 {
-    style.point_size.unwrap_or_else(|| closing_size(points))
-}
-
-/// The diameter in logical pixels at which so many points close up to a surface in a view of usual size.
-fn closing_size(points: usize) -> f32 {
-    let fruit_px = 0.2 * 900.0 * 700.0;
-    // From 1.5 to 9.
-    (1.7 * (fruit_px / points.max(1) as f64).sqrt()).clamp(1.5, 9.0) as f32
-}
-
+/// The scene with generations: the positions keep theirs if the look before shows the same points.
 fn numbered(mut scene: Scene, shown: &Arc<ShownPoints>, before: Option<&Look>) -> Scene {
     let same_points = before.filter(|b| Arc::ptr_eq(&b.shown, shown));
     for (i, points) in scene.points.iter_mut().enumerate() {

@@ -2,12 +2,10 @@
 
 pub(super) mod command_line;
 pub(super) mod details;
-#[cfg(feature = "window")]
-pub(super) mod drawing;
 pub(super) mod image;
 pub mod look;
 pub(super) mod navigate;
+pub mod planes;
 pub(super) mod stages;
 mod update;
 pub mod why;
-pub(super) mod written;

@@ -1,19 +1,18 @@
-//! Where the view is seen from.
+//! Cameras: presets, framing and projections.
 
 use glam::{DVec2, DVec3};
 
 use super::look::Look;
 use crate::app::state::State;
 use crate::render::{Camera, Insets, Projection, Viewport};
-use crate::view::{Overlay, Page, SceneSettings, Subject, ViewPreset, framed_cloud, framed_points, insets};
+use crate::view::{Overlay, Page, SceneSettings, ViewPreset, framed_cloud, framed_points, insets};
 
-/// Views are framed with room for what is written over them; widths of texts are taken as those of a
-/// usual font, since nothing is drawn yet.
+/// The approximate width of a text, for framing with room for the page: the window's font is not known here.
 fn measure(text: &str, size_px: f64) -> f64 {
     0.5 * size_px * text.chars().count() as f64
 }
 
-/// What is to be in the picture, and the room that is left for it.
+/// The points that must be in the picture, and the room that the page takes.
 fn framed(state: &State) -> (Vec<DVec3>, Insets) {
     let Some(shown) = state.shown() else {
         return (Vec::new(), Insets::default());
@@ -28,32 +27,22 @@ fn framed(state: &State) -> (Vec<DVec3>, Insets) {
             .filter(|_| style.overlays.has(Overlay::Legend)),
         scale_unit: None,
         has_triad: false,
-        caption: &[],
+        caption: Vec::new(),
         label: None,
     };
     let mut insets = insets(&page, &measure);
     // Scale bar and triad stand in the lower corners.
     insets.bottom_px += 24.0;
     let points = match (state.analysis(), plane_and_axis(state)) {
-        (Some(analysis), (plane, axis)) => framed_points(
-            Subject {
-                shown,
-                analysis,
-                detail: None,
-            },
+        (Some(_), (plane, axis)) => framed_points(
+            shown,
             &SceneSettings {
-                overlays: &style.overlays,
-                theme: style.theme,
+                style,
                 point_size_px: 1.0,
-                eye_dome_strength: 0.0,
                 plane,
                 axis: axis.as_ref(),
-                reference: state.reference().filter(|_| !state.annotating.is_blind),
-                references: if state.annotating.is_blind {
-                    &[]
-                } else {
-                    &state.references
-                },
+                reference: state.reference().filter(|_| !state.true_axes.is_blind),
+                references: &[],
             },
         ),
         (None, _) => framed_cloud(shown),
@@ -67,16 +56,10 @@ fn plane_and_axis(
     Option<crate::geometry::Plane>,
     Option<crate::method::AxisEstimate>,
 ) {
-    if state.annotating.is_blind {
+    if state.true_axes.is_blind {
         return (None, None);
     }
-    let plane = state.analysis().zip(state.chosen_plane_index()).map(|(a, i)| {
-        let normal = a.planes.grid.candidate(i).normal;
-        crate::geometry::Plane {
-            point: a.center,
-            normal,
-        }
-    });
+    let plane = (state.analysis().zip(state.chosen_plane_index())).map(|(a, index)| a.plane(index));
     let axis = state.analysis().and_then(|a| a.axis.clone());
     (plane, axis)
 }

@@ -190,7 +190,7 @@ impl FruitStages {
             })?),
         };
         self.file = Some((key.source.clone(), file.clone()));
-        let mut fruit = Fruit::of_file_whatever_its_peduncle(&file, key.unit, &key.peduncle);
+        let mut fruit = Fruit::from_file_lenient(&file, key.unit, &key.peduncle);
         if let Source::Bundled(sample) = key.source {
             fruit = fruit.with_truth(key.source.path(), sample.truth());
         }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::look::{Look, Question, look};
+use super::look::{Look, LookRequest, look};
 use super::navigate::{default_camera, framed_camera};
 use super::stages::{AnalyzeError, AnalyzedFruit, Source};
 use crate::app::workers::Crashed;
@@ -94,11 +94,12 @@ impl App {
         };
         match taken {
             None => {}
-            Some((_, Ok((stages, result)))) => {
-                self.discard.take(std::mem::replace(&mut self.stages, stages));
+            Some(Ok((stages, result))) => {
+                self.pool
+                    .discard(Some(std::mem::replace(&mut self.stages, stages)));
                 self.accept(result);
             }
-            Some((_, Err(Crashed(fault)))) => {
+            Some(Err(Crashed(fault))) => {
                 self.say(
                     true,
                     format!("The analysis broke off by a fault of the program: {fault}"),
@@ -137,8 +138,8 @@ impl App {
                     self.state.previewed = None;
                 }
                 (self.state.references, self.state.warnings) = (references, warnings);
-                self.discard.take(self.state.walked.replace(Arc::new(walked)));
-                self.discard.take(self.state.unanalyzed.take());
+                self.pool.discard(self.state.walked.replace(Arc::new(walked)));
+                self.pool.discard(self.state.unanalyzed.take());
                 self.state.is_stale = false;
                 self.take_current_row();
             }
@@ -163,8 +164,8 @@ impl App {
 
     pub(in crate::app) fn forget_analysis(&mut self) {
         self.details.clear();
-        self.discard
-            .take((self.state.walked.take(), self.state.unanalyzed.take()));
+        self.pool.discard(self.state.walked.take());
+        self.pool.discard(self.state.unanalyzed.take());
         self.state.references.clear();
         self.state.is_stale = false;
         self.state.previewed = None;
@@ -177,15 +178,15 @@ impl App {
     }
 
     pub(in crate::app) fn ask_for_look(&mut self) {
-        if let Some((_, result)) = self.looks.take() {
+        if let Some(result) = self.looks.take() {
             self.accept_look(result);
         }
         let Some(shown) = self.state.shown().cloned() else {
-            self.discard.take(self.state.look.take());
+            self.pool.discard(self.state.look.take());
             self.seen = None;
             return;
         };
-        let is_blind = self.state.annotating.is_blind;
+        let is_blind = self.state.true_axes.is_blind;
         let wanted = Seen {
             shown_generation: self.shown_generation,
             plane: self.state.plane_index().filter(|_| !is_blind),
@@ -195,7 +196,7 @@ impl App {
             reference: self.state.reference().cloned().filter(|_| !is_blind),
         };
         if self.seen.as_ref() != Some(&wanted) {
-            let question = Question {
+            let request = LookRequest {
                 shown,
                 analysis: self.state.analysis().cloned(),
                 plane: wanted.plane,
@@ -209,10 +210,10 @@ impl App {
             };
             let before = self.state.look.clone();
             self.looks
-                .submit(move |watch| look(question, before.as_deref(), watch));
+                .submit(move |watch| look(request, before.as_deref(), watch));
             self.seen = Some(wanted);
             self.state.is_look_pending = true;
-            if let Some((_, result)) = self.looks.take_within(PATIENCE) {
+            if let Some(result) = self.looks.take_within(PATIENCE) {
                 self.accept_look(result);
             }
         }
@@ -230,7 +231,7 @@ impl App {
                 if let (Some(index), Some(detail), true) = (look.plane_index, &look.detail, is_newest) {
                     self.details.keep(index, detail.clone());
                 }
-                self.discard.take(self.state.look.replace(Arc::new(look)));
+                self.pool.discard(self.state.look.replace(Arc::new(look)));
             }
             Ok(Err(Cancelled)) => return,
             Err(crash) => self.say(true, sentence(&format!("the view broke off by {crash}"))),
@@ -242,7 +243,7 @@ impl App {
         if let Some(question) = self.pending_click.take() {
             self.pick(question);
         }
-        if let Some((_, Ok((question, found)))) = self.picks.take_within(PATIENCE) {
+        if let Some(Ok((question, found))) = self.picks.take_within(PATIENCE) {
             self.state.pointed_at = found;
             if question.is_click {
                 self.state.picked = found;

@@ -1,51 +1,45 @@
 //! The open clouds as a set: analyzed in the background, as a table that is sorted and filtered, tagged,
 //! drawn small, and swept over settings.
 
-mod cache;
-#[cfg(feature = "window")]
-mod pictures;
-mod run;
+mod background;
+mod cloud_rows;
 mod saving;
 mod sweeping;
-mod table;
+mod tag_store;
 mod tagging;
-mod tags;
 mod thumbnails;
 mod update;
 
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::app::workers::{Lane, Repaint};
-use crate::evaluate::TruthChoice;
+use crate::app::workers::{Lane, Pool};
+use crate::evaluate::{Tagged, TruthChoice};
 use crate::fruit::Request;
-use crate::parallel::Crew;
+use crate::parallel::BackgroundPool;
 
-#[cfg(feature = "window")]
-pub use pictures::pictures_of_worst;
-pub use saving::{add_tags, evaluate_command_line};
-pub use sweeping::{MOST_TAUS, SweepState, SweepWish};
-pub use table::{Column, Filter, Sort, TableRow, ordered};
-pub use tags::{TAGS_FILE, Tagged, read_tags};
-pub use thumbnails::{KEPT_PICTURES, THUMBNAIL_PX, Thumbnail, Thumbnails};
+pub use cloud_rows::{Column, Filter, Sort, TableRow, ordered};
+pub use saving::evaluate_command_line;
+pub use sweeping::{MOST_TAUS, SweepRanges, SweepState};
+pub use thumbnails::{KEPT_PICTURES, Thumbnail, Thumbnails};
 
-use run::{Background, Found};
+use background::{BatchContext, BatchResult};
 use sweeping::Sweeper;
-use tags::Scribe;
-use thumbnails::Studio;
+use tag_store::TagStore;
+use thumbnails::ThumbnailQueue;
 
 /// Folders of up to so many clouds are evaluated as they are opened.
 pub const EVALUATED_AT_ONCE: usize = 200;
 
 /// How far the evaluation of the open clouds is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FolderProgress {
+pub struct EvaluationProgress {
     /// Clouds that are done.
     pub done: usize,
     /// Clouds in all.
@@ -57,28 +51,28 @@ pub struct FolderProgress {
 /// What survives a restart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct KeptFolder {
+pub struct KeptMany {
     sort: Sort,
     filter: Filter,
     against: TruthChoice,
-    sweep: SweepWish,
+    sweep: SweepRanges,
     folders: Vec<PathBuf>,
 }
 
-impl KeptFolder {
+impl KeptMany {
     /// The folders that were open: they may hold more clouds by now.
     pub fn folders(&self) -> &[PathBuf] {
         &self.folders
     }
 }
 
-impl Default for KeptFolder {
+impl Default for KeptMany {
     fn default() -> Self {
         Self {
             sort: Sort::default(),
             filter: Filter::default(),
             against: TruthChoice::Auto,
-            sweep: SweepWish::default(),
+            sweep: SweepRanges::default(),
             folders: Vec::new(),
         }
     }
@@ -86,7 +80,7 @@ impl Default for KeptFolder {
 
 /// The open clouds as a set: what there is to show of them.
 #[derive(Debug, Clone)]
-pub struct FolderState {
+pub struct ManyState {
     /// A row a cloud, in the order of the list.
     pub rows: Arc<Vec<TableRow>>,
     /// The places of those that are shown, in the order of the table.
@@ -100,7 +94,7 @@ pub struct FolderState {
     /// What errors are measured against in charts, gallery, filter and results.
     pub against: TruthChoice,
     /// How far the evaluation is; `None` where there is none under way.
-    pub progress: Option<FolderProgress>,
+    pub progress: Option<EvaluationProgress>,
     /// Clouds without a row of the parameters in force.
     pub missing: usize,
     /// Whether an evaluation was called off, or never begun.
@@ -115,8 +109,8 @@ pub struct FolderState {
     pub folders: Vec<PathBuf>,
 }
 
-impl FolderState {
-    pub(super) fn new(kept: KeptFolder) -> Self {
+impl ManyState {
+    pub(super) fn new(kept: KeptMany) -> Self {
         Self {
             rows: Arc::default(),
             order: Arc::default(),
@@ -135,12 +129,12 @@ impl FolderState {
         }
     }
 
-    pub(super) fn kept(&self) -> KeptFolder {
-        KeptFolder {
+    pub(super) fn kept(&self) -> KeptMany {
+        KeptMany {
             sort: self.sort,
             filter: self.filter.clone(),
             against: self.against,
-            sweep: self.sweep.wish.clone(),
+            sweep: self.sweep.ranges.clone(),
             folders: self.folders.clone(),
         }
     }
@@ -161,7 +155,7 @@ impl FolderState {
 
 /// Something that is asked of the set of clouds.
 #[derive(Debug, Clone, PartialEq)]
-pub enum FolderCommand {
+pub enum ManyCommand {
     /// Analyze every open cloud that has no row of the parameters in force.
     Evaluate,
     /// Call that off; what is done stays.
@@ -177,7 +171,7 @@ pub enum FolderCommand {
     /// Draw small pictures of these clouds, which are in sight, by their places in the list.
     Picture(Vec<usize>),
     /// Which settings are to be swept.
-    Wish(Box<SweepWish>),
+    SweepRanges(Box<SweepRanges>),
     /// Sweep over them.
     Sweep,
     /// Call the sweep off; the map stays as far as it came.
@@ -200,22 +194,11 @@ pub enum FolderCommand {
     },
 }
 
-/// One change of tags, for undo.
-#[derive(Debug, Clone)]
-struct TagEdit {
-    path: PathBuf,
-    before: Tagged,
-    after: Tagged,
-    /// How many settings could be undone when it was made: it comes between those and the next.
-    depth: usize,
-}
-
-/// What works behind [`FolderState`].
-pub(super) struct Folder {
-    background: Background,
-    crew: Arc<Crew>,
+/// What works behind [`ManyState`].
+pub(super) struct Many {
+    context: BatchContext,
     lane: Lane<()>,
-    found: (Sender<Found>, Receiver<Found>),
+    found: (Sender<BatchResult>, Receiver<BatchResult>),
     turn: u64,
     /// What the rows in force are of.
     request: Option<Request>,
@@ -229,26 +212,24 @@ pub(super) struct Folder {
     began: std::time::Instant,
     worked_out: usize,
     places: HashMap<PathBuf, usize>,
-    scribe: Scribe,
-    studio: Studio,
+    tag_store: TagStore,
+    thumbnails: ThumbnailQueue,
     sweeper: Sweeper,
     results: Lane<Result<String, String>>,
     tags_read: HashSet<PathBuf>,
-    undone: Vec<TagEdit>,
-    done: Vec<TagEdit>,
-    /// Whether the next change of tags continues the last one.
-    is_typing: bool,
+    /// The tags and notes that were given in this session, which are newer than any file that is still to be read.
+    edited: HashMap<PathBuf, Tagged>,
 }
 
-impl Folder {
-    pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
-            background: Background {
-                cache: Arc::new(Mutex::default()),
-                is_in_the_way: Arc::new(AtomicBool::new(false)),
+impl Many {
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
+            context: BatchContext {
+                store: Arc::default(),
+                pool: Arc::new(BackgroundPool::new()),
+                is_foreground_busy: Arc::new(AtomicBool::new(false)),
             },
-            crew: Arc::new(Crew::new()),
-            lane: Lane::new("folder", repaint.clone())?,
+            lane: Lane::new(pool),
             found: channel(),
             turn: 0,
             request: None,
@@ -259,19 +240,17 @@ impl Folder {
             began: std::time::Instant::now(),
             worked_out: 0,
             places: HashMap::new(),
-            scribe: Scribe::new(repaint.clone())?,
-            studio: Studio::new(repaint)?,
-            sweeper: Sweeper::new(repaint)?,
-            results: Lane::new("results", repaint.clone())?,
+            tag_store: TagStore::new(pool),
+            thumbnails: ThumbnailQueue::new(pool),
+            sweeper: Sweeper::new(pool),
+            results: Lane::new(pool),
             tags_read: HashSet::new(),
-            undone: Vec::new(),
-            done: Vec::new(),
-            is_typing: false,
-        })
+            edited: HashMap::new(),
+        }
     }
 
     pub(super) fn is_busy(&self) -> bool {
-        let is_drawing = self.studio.is_busy() || self.sweeper.is_busy() || self.results.is_busy();
-        self.lane.is_busy() || self.rested.is_some() || self.scribe.is_busy() || is_drawing
+        let is_drawing = self.thumbnails.is_busy() || self.sweeper.is_busy() || self.results.is_busy();
+        self.lane.is_busy() || self.rested.is_some() || self.tag_store.is_busy() || is_drawing
     }
 }

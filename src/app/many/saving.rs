@@ -1,24 +1,23 @@
-//! The results of the open clouds as files, the same that `axiscope evaluate` writes, and the command that does.
+//! The results of the open clouds as files, the same as those of `axiscope evaluate`, and its command line.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::app::App;
 use crate::app::state::State;
-use crate::app::{App, analysis_options};
 use crate::evaluate::{Row, Sweep, TruthChoice, WorstPicture, result_files};
 use crate::fruit::Request;
 
-/// Clouds that the report shows pictures of.
+/// The number of clouds with a picture in the report.
 #[cfg(feature = "window")]
 const PICTURES: usize = 12;
-/// What the folder for results is called.
+/// The name of the folder of results.
 const FOLDER: &str = "axiscope-results";
 
 impl State {
-    /// The innermost folder that all open files lie in.
+    /// Returns the innermost folder that contains all open files.
     fn common_folder(&self) -> Option<PathBuf> {
         let mut folders = self
-            .folder
+            .many
             .rows
             .iter()
             .filter_map(|row| row.path.as_deref()?.parent());
@@ -29,10 +28,10 @@ impl State {
         }))
     }
 
-    /// The rows of the open files against the chosen reference, with their tags; `None` where one has still
-    /// to be evaluated.
+    /// Returns the rows of the open files against the chosen reference, with their tags; `None` if one is not evaluated
+    /// yet.
     fn result_rows(&self, folder: &Path) -> Option<Vec<Row>> {
-        let rows = self.folder.rows.iter();
+        let rows = self.many.rows.iter();
         rows.filter_map(|row| Some((row, row.path.as_ref()?)))
             .map(|(row, path)| {
                 let outcome = row.outcome.as_ref().filter(|_| !row.is_stale)?;
@@ -40,14 +39,14 @@ impl State {
                     file: Row::name_in(folder, path),
                     tags: row.tagged.tags.join(", "),
                     note: row.tagged.note.clone(),
-                    ..outcome.against(self.folder.against)
+                    ..outcome.against(self.many.against)
                 })
             })
             .collect()
     }
 }
 
-/// The command line that evaluates the folder of the open clouds in the same way; `None` where no file is open.
+/// Returns the command line that evaluates the folder of the open clouds in the same way; `None` if no file is open.
 pub fn evaluate_command_line(state: &State) -> Option<Vec<String>> {
     let folder = state.common_folder()?;
     let folder = if folder.as_os_str().is_empty() {
@@ -56,7 +55,7 @@ pub fn evaluate_command_line(state: &State) -> Option<Vec<String>> {
         &folder
     };
     let mut words: Vec<String> = ["axiscope".into(), "evaluate".into(), folder.display().to_string()].into();
-    let truth = match state.folder.against {
+    let truth = match state.many.against {
         TruthChoice::Auto => None,
         TruthChoice::Peduncle => Some("peduncle"),
         TruthChoice::PeduncleDirection => Some("peduncle-direction"),
@@ -67,24 +66,24 @@ pub fn evaluate_command_line(state: &State) -> Option<Vec<String>> {
         words.extend(["--truth".into(), truth.into()]);
     }
     words.extend(["--out".into(), FOLDER.into()]);
-    words.extend(analysis_options(&state.settings.request));
-    if state.folder.sweep.map.is_some() {
-        let wish = &state.folder.sweep.wish;
-        let ([from, to], [low, high]) = (wish.u, wish.tau_cm_per_rad);
+    words.extend(state.settings.request.options());
+    if state.many.sweep.map.is_some() {
+        let ranges = &state.many.sweep.ranges;
+        let ([from, to], [low, high]) = (ranges.u, ranges.tau_cm_per_rad);
         words.push("--sweep".into());
-        words.push(format!("u={from}..{to}:{}", wish.u_step));
-        words.push(format!("tau={low}..{high}:{}", wish.tau_step_cm_per_rad));
+        words.push(format!("u={from}..{to}:{}", ranges.u_step));
+        words.push(format!("tau={low}..{high}:{}", ranges.tau_step_cm_per_rad));
     }
     Some(words)
 }
 
-/// Everything that results are made of.
+/// All input of the results.
 struct Task {
     clouds: PathBuf,
     request: Request,
     rows: Vec<Row>,
     sweep: Option<Sweep>,
-    /// Where the folder for them goes.
+    /// The parent of the folder of results.
     into: PathBuf,
 }
 
@@ -102,8 +101,8 @@ impl App {
             );
             return;
         };
-        let sweep = &self.state.folder.sweep;
-        let is_whole = !sweep.is_stale && sweep.progress.is_none() && !sweep.wish.only_current;
+        let sweep = &self.state.many.sweep;
+        let is_whole = !sweep.is_stale && sweep.progress.is_none() && !sweep.ranges.only_current;
         let task = Task {
             clouds,
             request: self.state.settings.request.clone(),
@@ -111,11 +110,11 @@ impl App {
             sweep: sweep.map.as_deref().filter(|_| is_whole).cloned(),
             into,
         };
-        self.folder.results.submit(move |_| save(&task));
+        self.many.results.submit(move |_| save(&task));
     }
 
     pub(super) fn update_results(&mut self) {
-        if let Some((_, result)) = self.folder.results.take() {
+        if let Some(result) = self.many.results.take() {
             let (is_error, text) = match result {
                 Ok(Ok(done)) => (false, done),
                 Ok(Err(problem)) => (true, problem),
@@ -149,7 +148,7 @@ fn save(task: &Task) -> Result<String, String> {
     ))
 }
 
-/// A folder that was not there: nothing is written over.
+/// Creates a new folder, so that no file is overwritten.
 fn new_folder(into: &Path) -> std::io::Result<PathBuf> {
     let mut count = 1;
     loop {
@@ -168,21 +167,11 @@ fn new_folder(into: &Path) -> std::io::Result<PathBuf> {
 
 #[cfg(feature = "window")]
 fn pictures(task: &Task) -> (Vec<WorstPicture>, Option<String>) {
-    super::pictures_of_worst(&task.clouds, &task.rows, &task.request, PICTURES)
+    crate::evaluate::pictures_of_worst(&task.clouds, &task.rows, &task.request, PICTURES)
 }
 
-/// Without a renderer there are no pictures.
+/// Draws nothing: there is no renderer in this build.
 #[cfg(not(feature = "window"))]
 fn pictures(_: &Task) -> (Vec<WorstPicture>, Option<String>) {
     (Vec::new(), None)
-}
-
-/// Writes what is tagged and noted in the folder into the rows of its clouds.
-pub fn add_tags(rows: &mut [Row], tags: &BTreeMap<String, super::Tagged>) {
-    for row in rows {
-        if let Some(tagged) = tags.get(&row.file) {
-            row.tags = tagged.tags.join(", ");
-            row.note.clone_from(&tagged.note);
-        }
-    }
 }

@@ -1,4 +1,4 @@
-//! The map of the mean error over u and τ, of all clouds of the table or of the current one.
+//! The map of the mean error over u and τ, for all clouds of the table or for the current one.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,35 +8,35 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::FolderProgress;
-use super::run::{Background, Polite};
+use super::EvaluationProgress;
+use super::background::{BatchContext, YieldingWatch};
 use crate::app::App;
-use crate::app::workers::{JobWatch, Lane, Repaint};
-use crate::evaluate::{Outcome, Sweep, SweepSettings, TruthChoice, sweep_cloud};
+use crate::app::workers::{JobWatch, Lane, Pool};
+use crate::evaluate::{Sweep, SweepSettings, TruthChoice, evaluate_file};
 use crate::fruit::Request;
 use crate::method::CandidateGrid;
-use crate::parallel::{Crew, Watch};
+use crate::parallel::Watch;
 
-/// The most settings of τ that are tried.
+/// The largest number of values of τ.
 pub const MOST_TAUS: usize = 200;
 
-/// What is to be swept.
+/// The ranges of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct SweepWish {
-    /// The least and the most grid steps.
+pub struct SweepRanges {
+    /// The smallest and the largest number of grid steps.
     pub u: [usize; 2],
-    /// From one u to the next.
+    /// The step from one u to the next.
     pub u_step: usize,
-    /// The least and the most weight of angles, in centimeters per radian.
+    /// The smallest and the largest weight of angles, in centimeters per radian.
     pub tau_cm_per_rad: [f64; 2],
-    /// From one weight to the next.
+    /// The step from one weight to the next, in centimeters per radian.
     pub tau_step_cm_per_rad: f64,
-    /// Only the current cloud, not all that the table shows.
+    /// Whether only the current cloud is swept, instead of all that the table shows.
     pub only_current: bool,
 }
 
-impl Default for SweepWish {
+impl Default for SweepRanges {
     fn default() -> Self {
         Self {
             u: [5, 16],
@@ -48,8 +48,8 @@ impl Default for SweepWish {
     }
 }
 
-impl SweepWish {
-    /// Every setting; `None` where there is none, or where it makes no sense.
+impl SweepRanges {
+    /// Returns every setting; `None` if there is none, or if a range is invalid.
     pub fn settings(&self) -> Option<SweepSettings> {
         let [from, to] = self.u;
         let is_u_sound = CandidateGrid::new(from).is_ok() && CandidateGrid::new(to).is_ok() && from <= to;
@@ -73,30 +73,30 @@ impl SweepWish {
     }
 }
 
-/// Without what adding up steps leaves behind the ninth decimal.
+/// Rounds away the error of added-up steps behind the ninth decimal.
 fn rounded(value: f64) -> f64 {
     (value * 1e9).round() / 1e9
 }
 
-/// A map, and of what it is.
+/// The map of a sweep, and its progress.
 #[derive(Debug, Clone)]
 pub struct SweepState {
-    /// What is to be swept next.
-    pub wish: SweepWish,
-    /// The map; with fewer clouds than asked for while it grows, or where it was called off.
+    /// The ranges of the next sweep.
+    pub ranges: SweepRanges,
+    /// The map; of fewer clouds than requested while it grows, or after a cancellation.
     pub map: Option<Arc<Sweep>>,
-    /// Clouds in it, and clouds that were asked for.
+    /// The numbers of clouds in the map and of requested clouds.
     pub clouds: [usize; 2],
-    /// Whether it is of other parameters, or against another reference, than those in force.
+    /// Whether the parameters or the reference have changed since.
     pub is_stale: bool,
-    /// How far it is; `None` where none is under way.
-    pub progress: Option<FolderProgress>,
+    /// The progress of a running sweep.
+    pub progress: Option<EvaluationProgress>,
 }
 
 impl SweepState {
-    pub(super) fn new(wish: SweepWish) -> Self {
+    pub(super) fn new(ranges: SweepRanges) -> Self {
         Self {
-            wish,
+            ranges,
             map: None,
             clouds: [0, 0],
             is_stale: false,
@@ -110,7 +110,7 @@ struct Swept {
     errors_deg: Option<Vec<Option<f64>>>,
 }
 
-/// What sweeps.
+/// The running sweep.
 pub(super) struct Sweeper {
     lane: Lane<()>,
     swept: (Sender<Swept>, Receiver<Swept>),
@@ -120,14 +120,14 @@ pub(super) struct Sweeper {
 }
 
 impl Sweeper {
-    pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
-            lane: Lane::new("sweep", repaint.clone())?,
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
+            lane: Lane::new(pool),
             swept: channel(),
             turn: 0,
             began: Instant::now(),
             of: None,
-        })
+        }
     }
 
     pub(super) fn is_busy(&self) -> bool {
@@ -136,14 +136,14 @@ impl Sweeper {
 }
 
 impl App {
-    /// Begins the sweep that was wished for.
+    /// Begins a sweep over the chosen ranges.
     pub(super) fn sweep(&mut self) {
-        let folder = &mut self.state.folder;
-        let Some(settings) = folder.sweep.wish.settings() else {
+        let folder = &mut self.state.many;
+        let Some(settings) = folder.sweep.ranges.settings() else {
             self.say(true, "These ranges of u and τ hold no settings to try.".into());
             return;
         };
-        let places: Vec<usize> = if folder.sweep.wish.only_current {
+        let places: Vec<usize> = if folder.sweep.ranges.only_current {
             self.state.current.into_iter().collect()
         } else {
             folder.order.to_vec()
@@ -157,14 +157,14 @@ impl App {
             );
             return;
         }
-        let sweeper = &mut self.folder.sweeper;
+        let sweeper = &mut self.many.sweeper;
         sweeper.turn += 1;
         sweeper.began = Instant::now();
         sweeper.of = Some((self.state.settings.request.clone(), folder.against));
         folder.sweep.map = Some(Arc::new(Sweep::new(settings.clone())));
         folder.sweep.clouds = [0, clouds.len()];
         folder.sweep.is_stale = false;
-        folder.sweep.progress = Some(FolderProgress {
+        folder.sweep.progress = Some(EvaluationProgress {
             done: 0,
             total: clouds.len(),
             left: None,
@@ -176,31 +176,31 @@ impl App {
             request: self.state.settings.request.clone(),
             against: folder.against,
         };
-        let (background, crew) = (self.folder.background.clone(), self.folder.crew.clone());
+        let context = self.many.context.clone();
         let swept = sweeper.swept.0.clone();
         sweeper
             .lane
-            .submit(move |watch| run(&task, &background, &crew, watch, &swept));
+            .submit(move |watch| sweep_batch(&task, &context, watch, &swept));
     }
 
-    /// Calls the sweep off; the map stays as far as it came.
+    /// Cancels the sweep; the map keeps the clouds that are done.
     pub(super) fn cancel_sweep(&mut self) {
-        self.folder.sweeper.lane.cancel();
-        self.state.folder.sweep.progress = None;
+        self.many.sweeper.lane.cancel();
+        self.state.many.sweep.progress = None;
     }
 
     pub(super) fn update_sweep(&mut self) {
-        let is_over = self.folder.sweeper.lane.take();
-        let sweep = &mut self.state.folder.sweep;
-        while let Ok(swept) = self.folder.sweeper.swept.1.try_recv() {
+        let is_over = self.many.sweeper.lane.take();
+        let sweep = &mut self.state.many.sweep;
+        while let Ok(swept) = self.many.sweeper.swept.1.try_recv() {
             let (Some(map), Some(progress)) = (&mut sweep.map, &mut sweep.progress) else {
                 continue;
             };
-            if swept.turn != self.folder.sweeper.turn {
+            if swept.turn != self.many.sweeper.turn {
                 continue;
             }
             progress.done += 1;
-            let each = self.folder.sweeper.began.elapsed().as_secs_f64() / progress.done as f64;
+            let each = self.many.sweeper.began.elapsed().as_secs_f64() / progress.done as f64;
             let left = progress.total.saturating_sub(progress.done);
             progress.left = Some(Duration::from_secs_f64(each * left as f64));
             if let Some(errors_deg) = swept.errors_deg {
@@ -208,15 +208,15 @@ impl App {
                 sweep.clouds[0] += 1;
             }
         }
-        let of = self.folder.sweeper.of.as_ref();
+        let of = self.many.sweeper.of.as_ref();
         sweep.is_stale = of.is_some_and(|(request, against)| {
-            // u and τ are what is swept.
+            // The sweep replaces u and τ.
             let mut now = self.state.settings.request.clone();
             now.params.u = request.params.u;
             now.params.tau_cm_per_rad = request.params.tau_cm_per_rad;
-            now != *request || self.state.folder.against != *against
+            now != *request || self.state.many.against != *against
         });
-        if let Some((_, result)) = is_over {
+        if let Some(result) = is_over {
             sweep.progress = None;
             if let Err(crash) = result {
                 self.say(
@@ -236,31 +236,29 @@ struct Task {
     against: TruthChoice,
 }
 
-/// Several clouds at a time; what they say is added up in the order in which it comes, which changes a mean in
-/// its last digit at most.
-fn run(task: &Task, background: &Background, crew: &Crew, watch: &JobWatch, swept: &Sender<Swept>) {
+/// Sweeps over several clouds at a time. Their errors are added up in the order in which they come, which
+/// changes a mean in its last digit at most.
+fn sweep_batch(task: &Task, context: &BatchContext, watch: &JobWatch, swept: &Sender<Swept>) {
     let next = AtomicUsize::new(0);
-    let polite = Polite { watch, background };
-    crew.each(|| {
+    let yielding = YieldingWatch { watch, context };
+    let sweep = Some((&task.settings, task.against));
+    context.pool.broadcast(|| {
         loop {
             let place = next.fetch_add(1, Ordering::Relaxed);
             let Some(path) = task.clouds.get(place) else {
                 return;
             };
-            if polite.is_cancelled() {
+            if yielding.is_cancelled() {
                 return;
             }
-            let worked = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-                let (_, examined) = Outcome::of_file("", path, &task.request, &polite).ok()?;
-                sweep_cloud(&examined?, task.against, &task.settings, &polite).ok()
-            }));
+            let row = evaluate_file("", path, &task.request, sweep, &yielding);
             if watch.is_cancelled() {
                 return;
             }
-            // Nobody listens any more where the window has closed.
+            // The window may have closed.
             let _ = swept.send(Swept {
                 turn: task.turn,
-                errors_deg: worked.ok().flatten(),
+                errors_deg: row.ok().and_then(|row| row.sweep_deg),
             });
         }
     });

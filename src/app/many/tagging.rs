@@ -1,17 +1,18 @@
-//! Tags and notes as somebody changes them: shown at once, written behind it, and undone in turn with settings.
+//! Edits of tags and notes: shown at once, written to disk in the background, and undone in turn with settings.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::run::name_of;
-use super::tags::Answer;
-use super::{Filter, TagEdit, Tagged};
-use crate::app::App;
+use super::background::name_of;
+use super::tag_store::TagResult;
+use super::{Filter, Many, TableRow};
+use crate::app::{App, Step};
+use crate::evaluate::Tagged;
 
 impl App {
     pub(super) fn tag(&mut self, place: usize, tagged: Tagged) {
-        let Some(row) = self.state.folder.rows.get(place) else {
+        let Some(row) = self.state.many.rows.get(place) else {
             return;
         };
         let Some(path) = row.path.clone() else {
@@ -22,99 +23,52 @@ impl App {
             return;
         }
         let before = row.tagged.clone();
-        self.folder.undone.clear();
-        let depth = self.history.depth();
-        let continues = self.folder.is_typing;
-        match self.folder.done.last_mut() {
-            Some(last) if continues && last.path == path && last.depth == depth => {
-                last.after = tagged.clone();
-            }
-            _ => self.folder.done.push(TagEdit {
-                path: path.clone(),
-                before,
-                after: tagged.clone(),
-                depth,
-            }),
-        }
-        self.folder.is_typing = true;
+        // What is typed in one cloud's tags, letter by letter, is one step.
+        let gesture = format!("tags {}", path.display());
+        let step = Step::Tags {
+            path: path.clone(),
+            tagged: before,
+        };
+        self.undo.push_of_gesture(step, Some(&gesture));
         self.set_tagged(path, tagged);
     }
 
-    fn set_tagged(&mut self, path: PathBuf, tagged: Tagged) {
-        if let Some(&place) = self.folder.places.get(&path) {
-            let row = &mut Arc::make_mut(&mut self.state.folder.rows)[place];
+    pub(in crate::app) fn set_tagged(&mut self, path: PathBuf, tagged: Tagged) {
+        if let Some(&place) = self.many.places.get(&path) {
+            let row = &mut Arc::make_mut(&mut self.state.many.rows)[place];
             row.tagged = tagged.clone();
             row.write_cells(place);
         }
-        self.folder.scribe.write(path, tagged);
+        self.many.edited.insert(path.clone(), tagged.clone());
+        self.many.tag_store.write(path, tagged);
         self.gather_tags();
         self.reorder();
     }
 
     fn gather_tags(&mut self) {
-        let rows = self.state.folder.rows.iter();
+        let rows = self.state.many.rows.iter();
         let tags: BTreeSet<&String> = rows.flat_map(|row| &row.tagged.tags).collect();
-        self.state.folder.known_tags = Arc::new(tags.into_iter().cloned().collect());
-        let is_gone = |tag: &String| !self.state.folder.known_tags.contains(tag);
-        if self.state.folder.filter.tag.as_ref().is_some_and(is_gone) {
-            self.state.folder.filter = Filter {
+        self.state.many.known_tags = Arc::new(tags.into_iter().cloned().collect());
+        let is_gone = |tag: &String| !self.state.many.known_tags.contains(tag);
+        if self.state.many.filter.tag.as_ref().is_some_and(is_gone) {
+            self.state.many.filter = Filter {
                 tag: None,
-                ..self.state.folder.filter.clone()
+                ..self.state.many.filter.clone()
             };
         }
     }
 
-    /// The next change of tags is a step of its own.
-    pub(in crate::app) fn end_typing(&mut self) {
-        self.folder.is_typing = false;
-    }
-
-    /// Whether the last thing that was done is a change of tags, which undo takes back first.
-    pub(in crate::app) fn undo_tag(&mut self) -> bool {
-        self.folder.is_typing = false;
-        let depth = self.history.depth();
-        let Some(edit) = self.folder.done.pop_if(|edit| edit.depth >= depth) else {
-            return false;
-        };
-        self.set_tagged(edit.path.clone(), edit.before.clone());
-        self.folder.undone.push(edit);
-        true
-    }
-
-    /// Whether the next thing to be done again is a change of tags.
-    pub(in crate::app) fn redo_tag(&mut self) -> bool {
-        let depth = self.history.depth();
-        let Some(edit) = self.folder.undone.pop_if(|edit| edit.depth <= depth) else {
-            return false;
-        };
-        self.set_tagged(edit.path.clone(), edit.after.clone());
-        self.folder.done.push(edit);
-        true
-    }
-
-    pub(in crate::app) fn can_undo_tag(&self) -> bool {
-        !self.folder.done.is_empty()
-    }
-
-    pub(in crate::app) fn can_redo_tag(&self) -> bool {
-        let depth = self.history.depth();
-        self.folder.undone.last().is_some_and(|edit| edit.depth <= depth)
-    }
-
-    /// What the thread that reads and writes tags has to tell.
+    /// Takes the results of reading and writing tags.
     pub(super) fn take_tags(&mut self) {
-        while let Some(answer) = self.folder.scribe.take() {
-            match answer {
-                Answer::Read(folder, Ok(mut tags)) => {
-                    let rows = Arc::make_mut(&mut self.state.folder.rows);
+        while let Some(result) = self.many.tag_store.take() {
+            match result {
+                TagResult::Read(folder, Ok(mut tags)) => {
+                    let rows = Arc::make_mut(&mut self.state.many.rows);
                     for (place, row) in rows.iter_mut().enumerate() {
                         let is_there = row.path.as_deref().and_then(Path::parent) == Some(&*folder);
                         // What was said while the file was read is newer.
-                        let said = self
-                            .folder
-                            .done
-                            .iter()
-                            .any(|edit| Some(&edit.path) == row.path.as_ref());
+                        let path = row.path.as_ref();
+                        let said = path.is_some_and(|path| self.many.edited.contains_key(path));
                         if !is_there || said {
                             continue;
                         }
@@ -127,9 +81,20 @@ impl App {
                     self.gather_tags();
                     self.reorder();
                 }
-                Answer::Read(_, Err(problem)) | Answer::Written(Err(problem)) => self.say(true, problem),
-                Answer::Written(Ok(())) => {}
+                TagResult::Read(_, Err(problem)) | TagResult::Written(Err(problem)) => {
+                    self.say(true, problem)
+                }
+                TagResult::Written(Ok(())) => {}
             }
         }
+    }
+}
+
+impl Many {
+    /// The tags and the note of a cloud now, which may no longer be in the list.
+    pub(in crate::app) fn tagged(&self, rows: &[TableRow], path: &Path) -> Tagged {
+        let row = self.places.get(path).and_then(|&place| rows.get(place));
+        let tagged = row.map(|row| &row.tagged).or(self.edited.get(path));
+        tagged.cloned().unwrap_or_default()
     }
 }

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use super::run::{Found, Task, run};
-use super::{EVALUATED_AT_ONCE, FolderCommand, FolderProgress, TableRow, ordered};
+use super::background::{BatchResult, BatchTask, evaluate_batch};
+use super::{EVALUATED_AT_ONCE, EvaluationProgress, ManyCommand, TableRow, ordered};
 use crate::app::state::State;
 use crate::app::{App, Source};
-use crate::evaluate::Outcome;
+use crate::evaluate::{Outcome, RowStore, StoreKind, StoreProblem};
 
 /// Parameters that have rested so long are looked up for all clouds.
 const CALM: Duration = Duration::from_millis(300);
@@ -18,19 +18,20 @@ const CALM: Duration = Duration::from_millis(300);
 impl App {
     /// Keeps rows in a folder, so that they need not be worked out again the next time.
     pub fn keep_rows_in(&mut self, folder: PathBuf) {
-        self.folder.background.cache().keep_in(folder);
+        let store = RowStore::in_folder(folder, StoreKind::Cache);
+        self.many.context.store = Arc::new(store);
         self.look_up();
     }
 
     /// How many files were read in the background to know their hash: for tests of the cache.
     #[doc(hidden)]
     pub fn background_reads(&self) -> usize {
-        self.folder.background.cache().reads()
+        self.many.context.store.hash_reads()
     }
 
     /// The list of open clouds has changed. A folder that is not too large is evaluated at once.
     pub(in crate::app) fn list_changed(&mut self, opened_folder: bool) {
-        self.folder.wants_all |= opened_folder && self.state.entries.len() <= EVALUATED_AT_ONCE;
+        self.many.wants_all |= opened_folder && self.state.entries.len() <= EVALUATED_AT_ONCE;
         self.take_list();
     }
 
@@ -42,64 +43,67 @@ impl App {
         self.update_pictures();
         self.update_sweep();
         self.update_results();
-        let problem = self.folder.background.cache().take_problem();
-        if let Some(problem) = problem {
-            self.say(true, problem);
+        if let Some(StoreProblem { path, error }) = self.many.context.store.take_problem() {
+            let path = path.display();
+            self.say(
+                true,
+                format!("{path}: rows cannot be kept for the next time: {error}."),
+            );
         }
     }
 
     /// Whether the current cloud is being worked on: the background waits while it is.
     pub(in crate::app) fn stand_aside(&self, is_in_the_way: bool) {
-        let flag = &self.folder.background.is_in_the_way;
+        let flag = &self.many.context.is_foreground_busy;
         flag.store(is_in_the_way, Ordering::Relaxed);
     }
 
     /// Does what is asked.
-    pub(in crate::app) fn apply_folder(&mut self, command: FolderCommand) {
+    pub(in crate::app) fn apply_folder(&mut self, command: ManyCommand) {
         match command {
-            FolderCommand::Evaluate => {
-                self.folder.wants_all = true;
+            ManyCommand::Evaluate => {
+                self.many.wants_all = true;
                 self.look_up();
             }
-            FolderCommand::Cancel => {
-                self.folder.lane.cancel();
-                self.folder.expected.clear();
-                self.folder.wants_all = false;
-                self.folder.is_evaluating = false;
-                self.state.folder.progress = None;
-                self.state.folder.was_cancelled = true;
+            ManyCommand::Cancel => {
+                self.many.lane.cancel();
+                self.many.expected.clear();
+                self.many.wants_all = false;
+                self.many.is_evaluating = false;
+                self.state.many.progress = None;
+                self.state.many.was_cancelled = true;
             }
-            FolderCommand::Sort(sort) => {
-                self.state.folder.sort = sort;
+            ManyCommand::Sort(sort) => {
+                self.state.many.sort = sort;
                 self.reorder();
             }
-            FolderCommand::Filter(filter) => {
-                self.state.folder.filter = *filter;
+            ManyCommand::Filter(filter) => {
+                self.state.many.filter = *filter;
                 self.reorder();
             }
-            FolderCommand::Against(choice) => {
-                self.state.folder.against = choice;
+            ManyCommand::Against(choice) => {
+                self.state.many.against = choice;
                 self.reorder();
             }
-            FolderCommand::GoWorse(by) => self.go_worse(by),
-            FolderCommand::Picture(places) => self.want_pictures(&places),
-            FolderCommand::Wish(wish) => self.state.folder.sweep.wish = *wish,
-            FolderCommand::Sweep => self.sweep(),
-            FolderCommand::SaveResults(into) => self.save_results(into),
-            FolderCommand::CancelSweep => self.cancel_sweep(),
-            FolderCommand::OpenSetting { u, tau_cm_per_rad } => {
+            ManyCommand::GoWorse(by) => self.go_worse(by),
+            ManyCommand::Picture(places) => self.want_pictures(&places),
+            ManyCommand::SweepRanges(ranges) => self.state.many.sweep.ranges = *ranges,
+            ManyCommand::Sweep => self.sweep(),
+            ManyCommand::SaveResults(into) => self.save_results(into),
+            ManyCommand::CancelSweep => self.cancel_sweep(),
+            ManyCommand::OpenSetting { u, tau_cm_per_rad } => {
                 let mut request = self.state.settings.request.clone();
                 request.params.u = u;
                 request.params.tau_cm_per_rad = tau_cm_per_rad;
                 self.set(request, None);
             }
-            FolderCommand::Tag { place, tagged } => self.tag(place, tagged),
+            ManyCommand::Tag { place, tagged } => self.tag(place, tagged),
         }
     }
 
     /// Of the clouds that the table shows, the one whose error is the next larger or smaller.
     fn go_worse(&mut self, by: isize) {
-        let folder = &self.state.folder;
+        let folder = &self.state.many;
         let error = |place: usize| folder.rows[place].error_deg(folder.against);
         let mut ranked: Vec<(f64, usize)> = folder
             .order
@@ -123,7 +127,7 @@ impl App {
 
     /// Makes the rows those of the list; what is known of a cloud stays.
     fn take_list(&mut self) {
-        let before = std::mem::take(&mut self.state.folder.rows);
+        let before = std::mem::take(&mut self.state.many.rows);
         let mut known: HashMap<(String, Option<PathBuf>), &TableRow> = before
             .iter()
             .map(|row| ((row.name.clone(), row.path.clone()), row))
@@ -147,17 +151,17 @@ impl App {
             })
             .collect();
         let places = rows.iter().enumerate();
-        self.folder.places = places
+        self.many.places = places
             .filter_map(|(place, row)| Some((row.path.clone()?, place)))
             .collect();
         let folders: BTreeSet<PathBuf> = rows
             .iter()
             .filter_map(|row| Some(row.path.as_deref()?.parent()?.to_owned()))
             .collect();
-        self.state.folder.rows = Arc::new(rows);
+        self.state.many.rows = Arc::new(rows);
         for folder in folders {
-            if self.folder.tags_read.insert(folder.clone()) {
-                self.folder.scribe.read(folder);
+            if self.many.tags_read.insert(folder.clone()) {
+                self.many.tag_store.read(folder);
             }
         }
         self.look_up();
@@ -167,8 +171,8 @@ impl App {
     /// Asks the cache for all clouds, or evaluates them where that is wanted, as soon as nothing else is
     /// under way. A single cloud is the current one, and needs no more.
     fn look_up(&mut self) {
-        if self.state.folder.rows.len() > 1 {
-            self.folder.rested = Some(CALM);
+        if self.state.many.rows.len() > 1 {
+            self.many.rested = Some(CALM);
         }
     }
 
@@ -176,38 +180,38 @@ impl App {
     /// looked up, and evaluated where that was asked for.
     fn notice_parameters(&mut self, elapsed: Duration) {
         let request = &self.state.settings.request;
-        if self.folder.request.as_ref() != Some(request) {
-            let is_first = self.folder.request.is_none();
-            self.folder.request = Some(request.clone());
+        if self.many.request.as_ref() != Some(request) {
+            let is_first = self.many.request.is_none();
+            self.many.request = Some(request.clone());
             if !is_first {
                 // What was under way is of the parameters before.
-                self.folder.wants_all |= self.folder.is_evaluating;
-                self.folder.lane.cancel();
-                self.folder.expected.clear();
-                self.folder.is_evaluating = false;
-                self.state.folder.progress = None;
-                let rows = Arc::make_mut(&mut self.state.folder.rows);
+                self.many.wants_all |= self.many.is_evaluating;
+                self.many.lane.cancel();
+                self.many.expected.clear();
+                self.many.is_evaluating = false;
+                self.state.many.progress = None;
+                let rows = Arc::make_mut(&mut self.state.many.rows);
                 for row in rows.iter_mut() {
                     row.is_stale = row.outcome.is_some();
                 }
-                if self.state.folder.rows.len() > 1 {
-                    self.folder.rested = Some(Duration::ZERO);
+                if self.state.many.rows.len() > 1 {
+                    self.many.rested = Some(Duration::ZERO);
                 }
                 self.reorder();
             }
         }
-        if let Some(rested) = &mut self.folder.rested {
+        if let Some(rested) = &mut self.many.rested {
             *rested += elapsed;
             if *rested >= CALM && !self.analysis.is_busy() {
-                self.folder.rested = None;
+                self.many.rested = None;
                 self.begin();
             }
         }
     }
 
     fn begin(&mut self) {
-        let only_kept = !std::mem::take(&mut self.folder.wants_all);
-        let rows = &self.state.folder.rows;
+        let only_kept = !std::mem::take(&mut self.many.wants_all);
+        let rows = &self.state.many.rows;
         let clouds: Vec<PathBuf> = rows
             .iter()
             .filter(|row| !only_kept || row.outcome.is_none() || row.is_stale)
@@ -216,36 +220,36 @@ impl App {
         if clouds.is_empty() {
             return;
         }
-        self.folder.turn += 1;
-        self.folder.is_evaluating = !only_kept;
-        self.folder.expected = clouds.iter().cloned().collect();
-        self.folder.began = Instant::now();
-        self.folder.worked_out = 0;
-        self.state.folder.was_cancelled = false;
-        self.state.folder.progress = (!only_kept).then_some(FolderProgress {
+        self.many.turn += 1;
+        self.many.is_evaluating = !only_kept;
+        self.many.expected = clouds.iter().cloned().collect();
+        self.many.began = Instant::now();
+        self.many.worked_out = 0;
+        self.state.many.was_cancelled = false;
+        self.state.many.progress = (!only_kept).then_some(EvaluationProgress {
             done: 0,
             total: clouds.len(),
             left: None,
         });
-        let task = Task {
-            turn: self.folder.turn,
+        let task = BatchTask {
+            turn: self.many.turn,
             clouds,
             request: self.state.settings.request.clone(),
-            only_kept,
+            only_stored: only_kept,
         };
-        let (background, crew) = (self.folder.background.clone(), self.folder.crew.clone());
-        let found = self.folder.found.0.clone();
-        self.folder
+        let context = self.many.context.clone();
+        let found = self.many.found.0.clone();
+        self.many
             .lane
-            .submit(move |watch| run(&task, &background, &crew, watch, &found));
+            .submit(move |watch| evaluate_batch(&task, &context, watch, &found));
     }
 
     fn take_found(&mut self) {
         let mut has_changed = false;
         let began = Instant::now();
-        let is_over = self.folder.lane.take();
-        while let Ok(found) = self.folder.found.1.try_recv() {
-            if found.turn != self.folder.turn || !self.folder.expected.remove(&found.path) {
+        let is_over = self.many.lane.take();
+        while let Ok(found) = self.many.found.1.try_recv() {
+            if found.turn != self.many.turn || !self.many.expected.remove(&found.path) {
                 continue;
             }
             has_changed = true;
@@ -259,25 +263,25 @@ impl App {
             self.tell_progress();
             self.reorder();
         }
-        if let Some((_, result)) = is_over {
+        if let Some(result) = is_over {
             if let Err(crash) = result {
                 self.say(
                     true,
                     crate::text::sentence(&format!("the evaluation broke off by {crash}")),
                 );
             }
-            self.folder.is_evaluating = false;
-            self.state.folder.progress = None;
+            self.many.is_evaluating = false;
+            self.state.many.progress = None;
         }
     }
 
-    fn take_row(&mut self, found: Found) {
-        let Some(&place) = self.folder.places.get(&found.path) else {
+    fn take_row(&mut self, found: BatchResult) {
+        let Some(&place) = self.many.places.get(&found.path) else {
             return;
         };
-        let rows = Arc::make_mut(&mut self.state.folder.rows);
+        let rows = Arc::make_mut(&mut self.state.many.rows);
         let Some(row) = rows.get_mut(place) else { return };
-        self.folder.worked_out += usize::from(!found.was_kept && found.outcome.is_some());
+        self.many.worked_out += usize::from(!found.was_stored && found.outcome.is_some());
         if let Some(outcome) = found.outcome {
             if let Some(entry) = self.state.entries.get_mut(place) {
                 let failure = outcome.row().failure.as_deref();
@@ -291,14 +295,14 @@ impl App {
     }
 
     fn tell_progress(&mut self) {
-        let left_over = self.folder.expected.len();
-        let Some(progress) = &mut self.state.folder.progress else {
+        let left_over = self.many.expected.len();
+        let Some(progress) = &mut self.state.many.progress else {
             return;
         };
         progress.done = progress.total - left_over;
-        let worked_out = self.folder.worked_out;
+        let worked_out = self.many.worked_out;
         progress.left = (worked_out > 0).then(|| {
-            let each = self.folder.began.elapsed().as_secs_f64() / worked_out as f64;
+            let each = self.many.began.elapsed().as_secs_f64() / worked_out as f64;
             Duration::from_secs_f64(each * left_over as f64)
         });
     }
@@ -308,7 +312,7 @@ impl App {
         let (Some(place), Some(walked)) = (self.state.current, self.state.walked.clone()) else {
             return;
         };
-        let rows = &self.state.folder.rows;
+        let rows = &self.state.many.rows;
         let is_same = rows.get(place).is_some_and(|row| {
             let path = row.path.as_ref();
             path.is_none_or(|path| *path == walked.fruit.file.path)
@@ -317,13 +321,13 @@ impl App {
             return;
         }
         let outcome = Outcome::of_parts(
-            &self.state.folder.rows[place].name,
+            &self.state.many.rows[place].name,
             &walked.fruit,
             &walked.analysis,
             &self.state.references,
             &self.state.warnings,
         );
-        let row = &mut Arc::make_mut(&mut self.state.folder.rows)[place];
+        let row = &mut Arc::make_mut(&mut self.state.many.rows)[place];
         row.is_stale = false;
         if row.outcome.as_deref() == Some(&outcome) {
             return;
@@ -335,7 +339,7 @@ impl App {
 
     /// Makes the table's order anew.
     pub(super) fn reorder(&mut self) {
-        let folder = &mut self.state.folder;
+        let folder = &mut self.state.many;
         folder.order = Arc::new(ordered(&folder.rows, folder.sort, &folder.filter, folder.against));
         folder.missing = folder
             .rows
@@ -349,6 +353,6 @@ impl App {
 impl State {
     /// The cloud `by` places further on, as the table has them.
     pub fn neighbor(&self, by: isize) -> Option<usize> {
-        self.folder.neighbor(self.current?, by)
+        self.many.neighbor(self.current?, by)
     }
 }

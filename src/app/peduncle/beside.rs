@@ -33,7 +33,7 @@ pub(in crate::app) struct Key {
 
 impl App {
     pub(in crate::app) fn update_beside(&mut self) {
-        if let Some((_, result)) = self.peduncle.besides.take() {
+        if let Some(result) = self.peduncle.besides.take() {
             match result {
                 Ok(beside) => self.state.peduncle.beside = beside,
                 Err(crash) => self.say(true, format!("The comparison broke off by {crash}.")),

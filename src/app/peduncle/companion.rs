@@ -94,7 +94,7 @@ impl App {
 
     pub(in crate::app) fn update_companions(&mut self) {
         self.compare_companion();
-        let Some((_, result)) = self.peduncle.companions.take() else {
+        let Some(result) = self.peduncle.companions.take() else {
             return;
         };
         match result {

@@ -55,12 +55,12 @@ impl App {
             })
         });
         if let Some(result) = self.peduncle.edits.take_within(crate::app::PATIENCE) {
-            self.accept_edit(result.1);
+            self.accept_edit(result);
         }
     }
 
     fn take_edit(&mut self) {
-        if let Some((_, result)) = self.peduncle.edits.take() {
+        if let Some(result) = self.peduncle.edits.take() {
             self.accept_edit(result);
         }
     }

@@ -41,7 +41,7 @@ impl Hues {
 
 impl App {
     pub(in crate::app) fn update_hues(&mut self) {
-        if let Some((_, Ok(hues))) = self.peduncle.hues.take() {
+        if let Some(Ok(hues)) = self.peduncle.hues.take() {
             self.state.peduncle.hues = hues.map(std::sync::Arc::new);
         }
         let is_wanted = matches!(self.state.settings.request.peduncle, PeduncleChoice::Hue(_));
@@ -65,7 +65,7 @@ impl App {
         self.peduncle
             .hues
             .submit(move |_| Hues::of(walked.fruit.cloud(), &walked.fruit.file.sha256));
-        if let Some((_, Ok(hues))) = self.peduncle.hues.take_within(crate::app::PATIENCE) {
+        if let Some(Ok(hues)) = self.peduncle.hues.take_within(crate::app::PATIENCE) {
             self.state.peduncle.hues = hues.map(std::sync::Arc::new);
         }
     }

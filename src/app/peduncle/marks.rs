@@ -147,7 +147,7 @@ impl App {
     }
 
     fn take_marks(&mut self) {
-        let Some((_, result)) = self.peduncle.marks.take_within(PATIENCE) else {
+        let Some(result) = self.peduncle.marks.take_within(PATIENCE) else {
             return;
         };
         match result {

@@ -19,7 +19,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::state::Tool;
-use crate::app::workers::{Lane, Progress, Repaint};
+use crate::app::workers::{Lane, Pool, Progress};
 use crate::fruit::PeduncleChoice;
 use crate::geometry::PointSet;
 use crate::render::{Camera, Viewport};
@@ -196,22 +196,22 @@ pub(super) struct Work {
 }
 
 impl Work {
-    pub(super) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
-            marks: Lane::new("marks", repaint.clone())?,
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
+            marks: Lane::new(pool),
             asked_marks: None,
             screens: marks::Screens::default(),
-            edits: Lane::new("edits", repaint.clone())?,
+            edits: Lane::new(pool),
             waiting_edits: VecDeque::new(),
             spacing: None,
-            companions: Lane::new("companion", repaint.clone())?,
+            companions: Lane::new(pool),
             compared: HashSet::new(),
-            hues: Lane::new("hues", repaint.clone())?,
+            hues: Lane::new(pool),
             asked_hues: None,
-            besides: Lane::new("with and without", repaint.clone())?,
+            besides: Lane::new(pool),
             asked_beside: None,
             next_stroke: 0,
-        })
+        }
     }
 
     /// Whether anything is under way, or to be handed out.

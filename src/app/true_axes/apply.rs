@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::desk::Deed;
-use super::{AnnotateCommand, Decision, Draft, Ghost, Grab, Handle, Saving, Turn};
+use super::{Decision, Draft, Ghost, Grab, Handle, Saving, TrueAxesCommand, Turn};
 use crate::annotate::{Annotation, Ends, EndsError, Finding, Judgment, Method, Role, mean_axis};
 use crate::app::App;
 use crate::evaluate::start_axis;
@@ -11,11 +11,11 @@ use crate::render::Projection;
 use crate::text::sentence;
 
 impl App {
-    pub(in crate::app) fn annotate(&mut self, command: AnnotateCommand) {
-        let annotating = &mut self.state.annotating;
+    pub(in crate::app) fn annotate(&mut self, command: TrueAxesCommand) {
+        let annotating = &mut self.state.true_axes;
         match command {
-            AnnotateCommand::Edit(on) => self.edit_mode(on),
-            AnnotateCommand::Name(name) => {
+            TrueAxesCommand::Edit(on) => self.edit_mode(on),
+            TrueAxesCommand::Name(name) => {
                 name.trim().clone_into(&mut annotating.name);
                 if annotating.asks_name && annotating.author().is_ok() {
                     annotating.asks_name = false;
@@ -24,21 +24,21 @@ impl App {
                     annotating.is_editing = false;
                 }
             }
-            AnnotateCommand::WithoutName => annotating.asks_name = false,
-            AnnotateCommand::Role(role) => annotating.role = role,
-            AnnotateCommand::Blind(on) => self.blind(on),
-            AnnotateCommand::ShowAll(on) => annotating.shows_all = on && !annotating.is_blind,
+            TrueAxesCommand::WithoutName => annotating.asks_name = false,
+            TrueAxesCommand::Role(role) => annotating.role = role,
+            TrueAxesCommand::Blind(on) => self.blind(on),
+            TrueAxesCommand::ShowAll(on) => annotating.shows_all = on && !annotating.is_blind,
 
-            AnnotateCommand::Hover(landing) => annotating.landing = landing,
-            AnnotateCommand::Place(place) => self.place(place),
-            AnnotateCommand::Anew => {
+            TrueAxesCommand::Hover(landing) => annotating.landing = landing,
+            TrueAxesCommand::Place(place) => self.place(place),
+            TrueAxesCommand::Anew => {
                 if annotating.can_edit() {
                     annotating.draft = Draft::Anew;
                     (annotating.grabbed, annotating.moving) = (None, None);
                 }
             }
-            AnnotateCommand::Escape => self.escape(),
-            AnnotateCommand::Grab { handle, view, at_px } => {
+            TrueAxesCommand::Escape => self.escape(),
+            TrueAxesCommand::Grab { handle, view, at_px } => {
                 if let Some(ends) = annotating.ends().filter(|_| annotating.can_edit()) {
                     annotating.grabbed = Some(Grab {
                         handle,
@@ -48,35 +48,35 @@ impl App {
                     });
                 }
             }
-            AnnotateCommand::Drag(place) => self.drag(place),
-            AnnotateCommand::Drop => {
+            TrueAxesCommand::Drag(place) => self.drag(place),
+            TrueAxesCommand::Drop => {
                 annotating.grabbed = None;
                 if let Some(ends) = annotating.moving.take() {
                     self.set_ends(ends);
                 }
             }
-            AnnotateCommand::Preview(ends) => {
+            TrueAxesCommand::Preview(ends) => {
                 annotating.moving = Some(ends).filter(|_| annotating.can_edit());
             }
-            AnnotateCommand::SetEnds(ends) => {
+            TrueAxesCommand::SetEnds(ends) => {
                 annotating.moving = None;
                 self.set_ends(ends);
             }
-            AnnotateCommand::Nudge(turn, degrees) => self.nudge(turn, degrees),
-            AnnotateCommand::Step(step) => annotating.step = step,
-            AnnotateCommand::Hold(pivot) => annotating.pivot = pivot,
-            AnnotateCommand::Flip => {
+            TrueAxesCommand::Nudge(turn, degrees) => self.nudge(turn, degrees),
+            TrueAxesCommand::Step(step) => annotating.step = step,
+            TrueAxesCommand::Hold(pivot) => annotating.pivot = pivot,
+            TrueAxesCommand::Flip => {
                 if let Some(ends) = annotating.set_ends() {
                     self.set_ends(ends.flipped());
                 }
             }
-            AnnotateCommand::Start(method) => self.start(method),
-            AnnotateCommand::Ghost(ghost) => annotating.ghost = ghost,
-            AnnotateCommand::Confidence(confidence) => {
+            TrueAxesCommand::Start(method) => self.start(method),
+            TrueAxesCommand::Ghost(ghost) => annotating.ghost = ghost,
+            TrueAxesCommand::Confidence(confidence) => {
                 self.change(|judgment| judgment.confidence = confidence);
             }
-            AnnotateCommand::Note(note) => self.change(|judgment| judgment.note = note),
-            AnnotateCommand::CannotTell => {
+            TrueAxesCommand::Note(note) => self.change(|judgment| judgment.note = note),
+            TrueAxesCommand::CannotTell => {
                 let (confidence, note) = self.carried();
                 self.edit(Judgment {
                     confidence,
@@ -84,21 +84,21 @@ impl App {
                     ..Judgment::cannot_tell()
                 });
             }
-            AnnotateCommand::Undo => self.undo_or_redo(Deed::Undo),
-            AnnotateCommand::Redo => self.undo_or_redo(Deed::Redo),
-            AnnotateCommand::TryAgain => self.try_again(),
+            TrueAxesCommand::Undo => self.undo_or_redo(Deed::Undo),
+            TrueAxesCommand::Redo => self.undo_or_redo(Deed::Redo),
+            TrueAxesCommand::TryAgain => self.try_again(),
 
-            AnnotateCommand::NextWithout => self.next_without(),
-            AnnotateCommand::CompareSet => self.compare_set(),
-            AnnotateCommand::CancelSet => self.cancel_set(),
-            AnnotateCommand::Decide(decision) => self.decide(&decision),
-            AnnotateCommand::CompareWith(source) => annotating.compared = Some(source),
+            TrueAxesCommand::NextWithout => self.next_without(),
+            TrueAxesCommand::CompareSet => self.compare_set(),
+            TrueAxesCommand::CancelSet => self.cancel_set(),
+            TrueAxesCommand::Decide(decision) => self.decide(&decision),
+            TrueAxesCommand::CompareWith(source) => annotating.compared = Some(source),
         }
     }
 
     fn edit_mode(&mut self, on: bool) {
         let is_sample = matches!(self.state.source(), Some(crate::app::Source::Bundled(_)));
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         (annotating.draft, annotating.landing) = (Draft::None, None);
         (annotating.grabbed, annotating.moving) = (None, None);
         if !on {
@@ -121,10 +121,10 @@ impl App {
     }
 
     fn blind(&mut self, on: bool) {
-        self.state.annotating.is_blind = on;
+        self.state.true_axes.is_blind = on;
         if on {
-            self.state.annotating.shows_all = false;
-            self.state.annotating.compared = None;
+            self.state.true_axes.shows_all = false;
+            self.state.true_axes.compared = None;
             self.state.is_playing = false;
             self.state.previewed = None;
             self.state.tool = crate::app::Tool::Navigate;
@@ -132,7 +132,7 @@ impl App {
     }
 
     fn place(&mut self, place: DVec3) {
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         match (annotating.next_end(), annotating.draft) {
             (Some(Handle::BlossomEnd), Draft::Base(base)) => match Ends::new(base, place) {
                 Ok(ends) => {
@@ -153,7 +153,7 @@ impl App {
     }
 
     fn escape(&mut self) {
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         if annotating.grabbed.is_some() || annotating.moving.is_some() {
             (annotating.grabbed, annotating.moving) = (None, None);
         } else if annotating.draft != Draft::None {
@@ -164,7 +164,7 @@ impl App {
     }
 
     fn drag(&mut self, place: DVec3) {
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         let (Some(grab), Some(ends)) = (annotating.grabbed, annotating.set_ends()) else {
             return;
         };
@@ -178,7 +178,7 @@ impl App {
     }
 
     fn nudge(&mut self, turn: Turn, degrees: f64) {
-        let Some(ends) = self.state.annotating.set_ends() else {
+        let Some(ends) = self.state.true_axes.set_ends() else {
             return;
         };
         let camera = &self.state.camera;
@@ -191,14 +191,14 @@ impl App {
             Turn::Lean => lean,
             Turn::Picture => picture,
         };
-        match ends.turned(about, degrees, self.state.annotating.pivot) {
+        match ends.turned(about, degrees, self.state.true_axes.pivot) {
             Ok(turned) => self.set_ends(turned),
             Err(error) => self.refuse(error),
         }
     }
 
     fn start(&mut self, method: Method) {
-        if self.state.annotating.is_blind || !self.state.annotating.can_edit() || self.state.is_stale {
+        if self.state.true_axes.is_blind || !self.state.true_axes.can_edit() || self.state.is_stale {
             return;
         }
         let Some(walked) = self.state.walked.clone() else {
@@ -210,7 +210,7 @@ impl App {
         };
         match start_axis(&walked.fruit, &walked.analysis, &self.state.references, method) {
             Ok(ends) => {
-                self.state.annotating.draft = Draft::None;
+                self.state.true_axes.draft = Draft::None;
                 let (confidence, note) = self.carried();
                 self.edit(Judgment {
                     method,
@@ -229,7 +229,7 @@ impl App {
 
     /// The confidence and the note that stay when the axis changes.
     fn carried(&self) -> (Option<crate::annotate::Confidence>, String) {
-        let before = self.state.annotating.judgment();
+        let before = self.state.true_axes.judgment();
         before.map_or((None, String::new()), |before| {
             (before.confidence, before.note.clone())
         })
@@ -237,7 +237,7 @@ impl App {
 
     /// Another axis, begun where the last one was.
     fn set_ends(&mut self, ends: Ends) {
-        let before = self.state.annotating.judgment().cloned();
+        let before = self.state.true_axes.judgment().cloned();
         let before = before.unwrap_or_else(|| Judgment::by_hand(ends));
         self.edit(Judgment {
             finding: Finding::Axis(ends),
@@ -246,14 +246,14 @@ impl App {
     }
 
     fn change(&mut self, change: impl FnOnce(&mut Judgment)) {
-        if let Some(mut judgment) = self.state.annotating.judgment().cloned() {
+        if let Some(mut judgment) = self.state.true_axes.judgment().cloned() {
             change(&mut judgment);
             self.edit(judgment);
         }
     }
 
     fn edit(&mut self, mut judgment: Judgment) {
-        let annotating = &self.state.annotating;
+        let annotating = &self.state.true_axes;
         if !annotating.can_edit() {
             return;
         }
@@ -271,11 +271,11 @@ impl App {
     }
 
     fn undo_or_redo(&mut self, deed: Deed) {
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         (annotating.draft, annotating.moving, annotating.grabbed) = (Draft::None, None, None);
         let steps = match deed {
-            Deed::Undo => annotating.reach.undo_steps(),
-            _ => annotating.reach.redo_steps(),
+            Deed::Undo => annotating.history.undo_steps(),
+            _ => annotating.history.redo_steps(),
         };
         if annotating.can_edit() && steps > 0 {
             self.act_on_axis(deed);
@@ -283,7 +283,7 @@ impl App {
     }
 
     fn next_without(&mut self) {
-        let (mine, Some(current)) = (self.state.annotating.mine.clone(), self.state.current) else {
+        let (mine, Some(current)) = (self.state.true_axes.mine.clone(), self.state.current) else {
             return;
         };
         let count = mine.len();
@@ -299,7 +299,7 @@ impl App {
     /// Turns to the adjudicated axis and sets it.
     fn decide(&mut self, decision: &Decision) {
         let of_annotators = |a: &&Annotation| a.role == Role::Annotator;
-        let annotations = &self.state.annotating.annotations;
+        let annotations = &self.state.true_axes.annotations;
         let theirs: Vec<&Annotation> = annotations.iter().filter(of_annotators).collect();
         let judgment = match decision {
             Decision::ByHand => None,
@@ -322,19 +322,19 @@ impl App {
                 Some(mean)
             }
         };
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         if annotating.is_blind {
             return;
         }
         annotating.role = Role::Adjudicator;
         self.edit_mode(true);
-        if !self.state.annotating.is_editing {
+        if !self.state.true_axes.is_editing {
             return;
         }
         self.update_annotating();
         let Some(judgment) = judgment else { return };
         // The files may still be opening: edits wait behind that.
-        self.state.annotating.saving = Saving::Saving;
+        self.state.true_axes.saving = Saving::Saving;
         self.edit(judgment);
     }
 }

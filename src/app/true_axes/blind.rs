@@ -1,8 +1,8 @@
 //! Blind mode: nothing computed is shown, so that it cannot draw the annotator's hand.
 
 use crate::app::State;
-use crate::app::inspector::look::Style;
 use crate::app::state::Command;
+use crate::view::Style;
 use crate::view::{Coloring, Overlay, ViewPreset};
 
 /// Overlays that show, or give away, what was computed.
@@ -22,7 +22,7 @@ impl State {
     /// How the cloud is drawn: as chosen, but for what blind mode hides.
     pub fn shown_style(&self) -> Style {
         let mut style = self.style.clone();
-        if self.annotating.is_blind {
+        if self.true_axes.is_blind {
             for overlay in COMPUTED {
                 style.overlays.set(overlay, false);
             }
@@ -40,7 +40,7 @@ impl State {
 
     /// The warnings that are shown: in blind mode those of the file alone.
     pub fn shown_warnings(&self) -> &[String] {
-        match (&self.walked, self.annotating.is_blind) {
+        match (&self.walked, self.true_axes.is_blind) {
             (Some(walked), true) => &walked.fruit.warnings,
             (None, true) => &[],
             (_, false) => &self.warnings,
@@ -51,7 +51,7 @@ impl State {
 impl Command {
     /// Whether it shows what was computed, or is about that alone.
     pub fn reveals(&self) -> bool {
-        use crate::app::AnnotateCommand::{ShowAll, Start};
+        use crate::app::TrueAxesCommand::{ShowAll, Start};
         matches!(
             self,
             Self::LookAt(_)
@@ -62,7 +62,7 @@ impl Command {
                 | Self::MoveCenter(_)
                 | Self::Use(crate::app::Tool::MoveCenter)
                 | Self::View(ViewPreset::Normal | ViewPreset::Axis)
-                | Self::Annotate(Start(_) | ShowAll(true))
+                | Self::TrueAxes(Start(_) | ShowAll(true))
         )
     }
 }

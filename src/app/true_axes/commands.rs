@@ -28,7 +28,7 @@ pub enum Decision {
 
 /// Something that is asked about axes set by hand.
 #[derive(Debug, Clone, PartialEq)]
-pub enum AnnotateCommand {
+pub enum TrueAxesCommand {
     /// Enter edit mode, or leave it.
     Edit(bool),
     /// The annotator's name; edit mode follows where it waits for one.

@@ -2,11 +2,11 @@
 //! that was not saved is ever let go of.
 
 use std::path::PathBuf;
-use std::time::SystemTime;
 
-use crate::annotate::{Annotation, Author, CloudId, Judgment, Store, StoreError, rfc3339};
+use crate::annotate::{Annotation, Author, CloudId, Judgment, Store, StoreError, now};
 use crate::annotate::{DiskFiles, read_annotations};
 use crate::geometry::Unit;
+use crate::undo::History;
 
 /// A cloud's axis files.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,57 +24,19 @@ pub(super) enum Deed {
     Redo,
 }
 
-/// Every judgment within reach of undo and redo, and how many of them are done.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Reach {
-    states: Vec<Judgment>,
-    done: usize,
-}
-
-impl Reach {
-    /// What holds now.
-    pub fn current(&self) -> Option<&Judgment> {
-        self.states.get(self.done.checked_sub(1)?)
-    }
-
-    /// How many edits can be undone.
-    pub fn undo_steps(&self) -> usize {
-        self.done
-    }
-
-    /// How many edits can be done again.
-    pub fn redo_steps(&self) -> usize {
-        self.states.len() - self.done
-    }
-
-    pub(super) fn act(&mut self, deed: &Deed) {
-        match deed {
-            Deed::Edit(judgment) => {
-                self.states.truncate(self.done);
-                self.states.push((**judgment).clone());
-                self.done += 1;
-            }
-            Deed::Undo => self.done = self.done.saturating_sub(1),
-            Deed::Redo => self.done = (self.done + 1).min(self.states.len()),
-        }
-    }
-
-    fn of(store: &Store) -> Self {
-        let history = store.history();
-        Self {
-            states: history
-                .within_reach()
-                .map(|state| state.judgment.clone())
-                .collect(),
-            done: history.undo_steps(),
-        }
+/// Does a deed in the annotator's history, as its store will.
+pub(super) fn act(history: &mut History<Judgment>, deed: &Deed) {
+    match deed {
+        Deed::Edit(judgment) => history.push((**judgment).clone()),
+        Deed::Undo => drop(history.undo()),
+        Deed::Redo => drop(history.redo()),
     }
 }
 
 /// How things stand after a job.
 #[derive(Debug, Clone)]
 pub(super) struct Report {
-    pub(super) reach: Reach,
+    pub(super) history: History<Judgment>,
     /// The axis file, once it has a name.
     pub(super) axis_file: Option<PathBuf>,
     /// Why the newest edits are not on the disk, where they are not.
@@ -150,12 +112,13 @@ impl Desk {
         self.waiting.is_empty() && self.store.as_ref().is_none_or(Store::is_saved)
     }
 
-    fn reach(&self) -> Reach {
-        let mut reach = self.store.as_ref().map(Reach::of).unwrap_or_default();
+    fn history(&self) -> History<Judgment> {
+        let of_store = |store: &Store| store.history().map(|annotation| annotation.judgment.clone());
+        let mut history = self.store.as_ref().map(of_store).unwrap_or_default();
         for (deed, _) in &self.waiting {
-            reach.act(deed);
+            act(&mut history, deed);
         }
-        reach
+        history
     }
 }
 
@@ -240,20 +203,20 @@ impl Keeper {
                 .map(ToString::to_string)
                 .collect();
             (
-                desk.reach(),
+                desk.history(),
                 desk.store.as_ref().map(|store| store.axis_path().to_owned()),
                 desk.problem.clone(),
                 notices,
                 (desk.place.path.clone(), desk.author.clone()),
             )
         });
-        let (reach, axis_file, problem, of_store, here) = match current {
-            Some((reach, file, problem, notices, desk)) => (reach, file, problem, notices, Some(desk)),
-            None => (Reach::default(), None, None, Vec::new(), None),
+        let (history, axis_file, problem, of_store, here) = match current {
+            Some((history, file, problem, notices, desk)) => (history, file, problem, notices, Some(desk)),
+            None => (History::default(), None, None, Vec::new(), None),
         };
         notices.splice(0..0, of_store);
         Report {
-            reach,
+            history,
             axis_file,
             problem,
             notices,
@@ -277,10 +240,4 @@ impl Keeper {
 /// It begins with a file's name, whose letters stay as they are.
 fn told(error: &StoreError) -> String {
     format!("{error}.")
-}
-
-/// The time, to the second.
-fn now() -> String {
-    let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
-    rfc3339(since_1970.map_or(0, |since| since.as_secs()))
 }

@@ -26,11 +26,11 @@ use crate::annotate::{
 use crate::geometry::{Extent, Unit};
 use crate::method::AxisSource;
 use crate::render::{Camera, Scene};
+use crate::undo::History;
 
 pub use agreement::SetReport;
 pub use blind::overlay_reveals;
-pub use commands::{AnnotateCommand, Decision, Turn};
-pub use desk::Reach;
+pub use commands::{Decision, TrueAxesCommand, Turn};
 pub(super) use update::Annotator;
 pub use views::{EditView, Handle};
 
@@ -109,7 +109,7 @@ pub enum Saving {
 /// What a restart keeps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct KeptAnnotating {
+pub struct KeptTrueAxes {
     /// The annotator's name.
     pub name: String,
     /// Whether everything computed is hidden.
@@ -120,7 +120,7 @@ pub struct KeptAnnotating {
     pub ghost: Ghost,
 }
 
-impl Default for KeptAnnotating {
+impl Default for KeptTrueAxes {
     fn default() -> Self {
         Self {
             name: String::new(),
@@ -138,7 +138,7 @@ impl Default for KeptAnnotating {
     clippy::struct_excessive_bools,
     reason = "each says one thing that is so or not"
 )]
-pub struct Annotating {
+pub struct TrueAxesState {
     /// The annotator's name; empty as long as nobody has said one.
     pub name: String,
     /// In which role axes are set.
@@ -170,7 +170,7 @@ pub struct Annotating {
     /// The axis while it is dragged, before it counts.
     pub moving: Option<Ends>,
     /// What was said, and can be undone or done again.
-    pub reach: Reach,
+    pub history: History<Judgment>,
     /// Whether that is on the disk.
     pub saving: Saving,
     /// Other clouds whose axes could not be saved yet.
@@ -201,8 +201,8 @@ pub struct Annotating {
     seen: HashSet<String>,
 }
 
-impl Annotating {
-    pub(super) fn new(kept: KeptAnnotating) -> Self {
+impl TrueAxesState {
+    pub(super) fn new(kept: KeptTrueAxes) -> Self {
         Self {
             name: kept.name,
             role: Role::Annotator,
@@ -219,7 +219,7 @@ impl Annotating {
             landing: None,
             grabbed: None,
             moving: None,
-            reach: Reach::default(),
+            history: History::default(),
             saving: Saving::Nothing,
             unsaved_elsewhere: Vec::new(),
             notices: Vec::new(),
@@ -238,8 +238,8 @@ impl Annotating {
     }
 
     /// What a restart keeps.
-    pub(super) fn kept(&self) -> KeptAnnotating {
-        KeptAnnotating {
+    pub(super) fn kept(&self) -> KeptTrueAxes {
+        KeptTrueAxes {
             name: self.name.clone(),
             is_blind: self.is_blind,
             step: self.step,
@@ -260,7 +260,7 @@ impl Annotating {
 
     /// What the annotator says of the cloud, saved or not.
     pub fn judgment(&self) -> Option<&Judgment> {
-        self.reach.current()
+        self.history.current()
     }
 
     /// The axis that counts; `None` where none is set, or it cannot be told.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::agreement::{SetReport, compare, set_by};
-use super::desk::{Deed, Keeper, Place, Report};
+use super::desk::{Deed, Keeper, Place, Report, act};
 use super::middle::middle;
 use super::scenes::{Made, Scenes, Wanted, scenes};
 use super::views::locked_cameras;
@@ -14,13 +14,13 @@ use glam::DVec3;
 
 use crate::annotate::{Author, CloudAgreement, CloudId, FAR_OFF_DEG};
 use crate::app::inspector::stages::Source;
-use crate::app::workers::Queue;
-use crate::app::workers::{Lane, Repaint};
+use crate::app::workers::{JobId, Lane, Pool, Queue};
 use crate::app::{AnalyzedFruit, App, PATIENCE};
 use crate::evaluate::compared;
 use crate::fruit::Fruit;
 use crate::parallel::Cancelled;
 use crate::text::sentence;
+use crate::undo::History;
 use crate::view::ShownPoints;
 
 /// Points that tell how large a locked view has to be.
@@ -36,8 +36,8 @@ const FOR_MIDDLE: usize = 4_000;
 pub(in crate::app) struct Annotator {
     files: Queue<Keeper, Report>,
     /// The job whose answer tells how things stand now.
-    newest: u64,
-    answered: u64,
+    newest: JobId,
+    answered: JobId,
     /// What the files were last turned to.
     turned_to: Option<(Place, Option<Author>)>,
     scenes: Lane<Scenes>,
@@ -49,19 +49,19 @@ pub(in crate::app) struct Annotator {
 }
 
 impl Annotator {
-    pub(in crate::app) fn new(repaint: &Repaint) -> std::io::Result<Self> {
-        Ok(Self {
-            files: Queue::new("axes", Keeper::default(), repaint.clone())?,
+    pub(in crate::app) fn new(pool: &Pool) -> Self {
+        Self {
+            files: Queue::new(pool, Keeper::default()),
             newest: 0,
             answered: 0,
             turned_to: None,
-            scenes: Lane::new("ghost", repaint.clone())?,
+            scenes: Lane::new(pool),
             scenes_asked: None,
             made: None,
-            set: Lane::new("agreement", repaint.clone())?,
-            mine: Lane::new("progress", repaint.clone())?,
+            set: Lane::new(pool),
+            mine: Lane::new(pool),
             mine_asked: None,
-        })
+        }
     }
 
     pub(in crate::app) fn is_busy(&self) -> bool {
@@ -79,7 +79,7 @@ impl App {
     /// The cloud that is looked at has come, with its analysis or without.
     pub(in crate::app) fn set_subject(&mut self, fruit: &Fruit, shown: &ShownPoints) {
         let is_file = matches!(self.state.source(), Some(Source::File(path)) if *path == fruit.file.path);
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         if !is_file {
             annotating.subject = None;
             return;
@@ -118,7 +118,7 @@ impl App {
 
     /// The cloud that is looked at goes.
     pub(in crate::app) fn leave_subject(&mut self) {
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         annotating.subject = None;
         annotating.draft = Draft::None;
         (annotating.landing, annotating.grabbed, annotating.moving) = (None, None, None);
@@ -135,7 +135,7 @@ impl App {
 
     /// Once a frame, when the look is settled.
     pub(in crate::app) fn update_edit_scenes(&mut self) {
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         annotating.locked = annotating
             .subject
             .as_ref()
@@ -168,8 +168,8 @@ impl App {
             let before = self.annotator.made.clone();
             self.annotator.scenes.submit(move |_| scenes(wanted, before));
         }
-        if let Some((_, Ok(Scenes { made, small }))) = self.annotator.scenes.take_within(PATIENCE) {
-            let annotating = &mut self.state.annotating;
+        if let Some(Ok(Scenes { made, small })) = self.annotator.scenes.take_within(PATIENCE) {
+            let annotating = &mut self.state.true_axes;
             annotating.ghost_scene.clone_from(&made.main);
             annotating.small_scene = Some(small);
             self.annotator.made = Some(made);
@@ -178,31 +178,31 @@ impl App {
 
     /// Hands a deed to the files, and shows it at once.
     pub(super) fn act_on_axis(&mut self, deed: Deed) {
-        let annotating = &mut self.state.annotating;
-        annotating.reach.act(&deed);
+        let annotating = &mut self.state.true_axes;
+        act(&mut annotating.history, &deed);
         annotating.saving = Saving::Saving;
         if let (Some(place), Some(mine)) = (self.state.current, Some(Arc::make_mut(&mut annotating.mine)))
             && let Some(is_mine) = mine.get_mut(place)
         {
-            *is_mine = annotating.reach.current().is_some();
+            *is_mine = annotating.history.current().is_some();
         }
         self.annotator.newest = self.annotator.files.submit(move |keeper| keeper.act(deed));
     }
 
     pub(super) fn try_again(&mut self) {
-        self.state.annotating.saving = Saving::Saving;
+        self.state.true_axes.saving = Saving::Saving;
         self.annotator.newest = self.annotator.files.submit(Keeper::try_again);
     }
 
     pub(super) fn compare_set(&mut self) {
         let clouds = self.clouds();
         self.annotator.set.submit(move |watch| compare(&clouds, watch));
-        self.state.annotating.set_progress = Some(0.0);
+        self.state.true_axes.set_progress = Some(0.0);
     }
 
     pub(super) fn cancel_set(&mut self) {
         self.annotator.set.cancel();
-        self.state.annotating.set_progress = None;
+        self.state.true_axes.set_progress = None;
     }
 
     fn clouds(&self) -> Vec<PathBuf> {
@@ -211,16 +211,16 @@ impl App {
     }
 
     fn take_reports(&mut self) {
-        while let Some(answer) = self.annotator.files.take_within(Duration::ZERO) {
-            self.annotator.answered += 1;
-            let is_newest = self.annotator.answered == self.annotator.newest;
+        while let Some((id, answer)) = self.annotator.files.take_within(Duration::ZERO) {
+            self.annotator.answered = id;
+            let is_newest = id == self.annotator.newest;
             match answer {
                 Ok(report) if is_newest => self.accept_report(report),
                 // Of what was there before the last edit.
                 Ok(_) => {}
                 Err(crash) => {
                     let text = sentence(&format!("the axis could not be kept: {crash}"));
-                    self.state.annotating.saving = Saving::Failed(text.clone());
+                    self.state.true_axes.saving = Saving::Failed(text.clone());
                     self.say(true, text);
                 }
             }
@@ -228,12 +228,12 @@ impl App {
     }
 
     fn accept_report(&mut self, report: Report) {
-        let annotating = &mut self.state.annotating;
-        annotating.reach = report.reach;
+        let annotating = &mut self.state.true_axes;
+        annotating.history = report.history;
         annotating.axis_file = report.axis_file;
         annotating.saving = match report.problem {
             Some(problem) => Saving::Failed(problem),
-            None if annotating.reach == super::Reach::default() => Saving::Nothing,
+            None if annotating.history == History::default() => Saving::Nothing,
             None => Saving::Saved,
         };
         annotating.unsaved_elsewhere = report.unsaved_elsewhere;
@@ -271,7 +271,7 @@ impl App {
         let is_it = turned_to.is_some_and(|(place, _)| {
             place.path == walked.fruit.file.path && place.cloud.sha256 == walked.fruit.file.sha256
         });
-        let annotating = &self.state.annotating;
+        let annotating = &self.state.true_axes;
         let is_known = self.annotator.answered >= self.annotator.newest;
         if is_it && is_known && walked.fruit.annotations != annotating.annotations {
             let mut fruit = (*walked.fruit).clone();
@@ -282,7 +282,7 @@ impl App {
     }
 
     fn turn_to_subject(&mut self) {
-        let annotating = &self.state.annotating;
+        let annotating = &self.state.true_axes;
         let author = annotating.author().ok().filter(|_| annotating.is_editing);
         let wanted = annotating.subject.as_ref().map(|subject| {
             let place = Place {
@@ -297,8 +297,8 @@ impl App {
             return;
         }
         self.annotator.turned_to.clone_from(&wanted);
-        let annotating = &mut self.state.annotating;
-        annotating.reach = super::Reach::default();
+        let annotating = &mut self.state.true_axes;
+        annotating.history = History::default();
         annotating.draft = Draft::None;
         (annotating.grabbed, annotating.moving) = (None, None);
         (annotating.axis_file, annotating.agreement) = (None, None);
@@ -313,9 +313,9 @@ impl App {
             .annotator
             .files
             .submit(move |keeper| keeper.turn_to(place, author));
-        if let Some(answer) = self.annotator.files.take_within(PATIENCE) {
-            self.annotator.answered += 1;
-            if let (Ok(report), true) = (answer, self.annotator.answered == self.annotator.newest) {
+        if let Some((id, answer)) = self.annotator.files.take_within(PATIENCE) {
+            self.annotator.answered = id;
+            if let (Ok(report), true) = (answer, id == self.annotator.newest) {
                 self.accept_report(report);
             }
         }
@@ -328,7 +328,7 @@ impl App {
             .look
             .as_ref()
             .is_some_and(|look| look.analysis.is_some());
-        let annotating = &mut self.state.annotating;
+        let annotating = &mut self.state.true_axes;
         let Some(subject) = &annotating.subject else {
             annotating.was_seen = false;
             return;
@@ -340,10 +340,10 @@ impl App {
     }
 
     fn ask_for_mine(&mut self) {
-        if let Some((_, Ok(mine))) = self.annotator.mine.take() {
-            self.state.annotating.mine = Arc::new(mine);
+        if let Some(Ok(mine)) = self.annotator.mine.take() {
+            self.state.true_axes.mine = Arc::new(mine);
         }
-        let author = self.state.annotating.author().ok();
+        let author = self.state.true_axes.author().ok();
         let entries = &self.state.entries;
         let wanted = author.filter(|_| !entries.is_empty()).map(|author| {
             let last = entries.last().map(|entry| entry.source.path().to_owned());
@@ -353,7 +353,7 @@ impl App {
             return;
         }
         self.annotator.mine_asked.clone_from(&wanted);
-        self.state.annotating.mine = Arc::default();
+        self.state.true_axes.mine = Arc::default();
         if let Some((author, ..)) = wanted {
             let clouds = self.clouds();
             self.annotator.mine.submit(move |_| set_by(&author, &clouds));
@@ -361,15 +361,15 @@ impl App {
     }
 
     fn take_set(&mut self) {
-        if let Some((_, answer)) = self.annotator.set.take() {
-            self.state.annotating.set_progress = None;
+        if let Some(answer) = self.annotator.set.take() {
+            self.state.true_axes.set_progress = None;
             match answer {
-                Ok(Ok(report)) => self.state.annotating.set = Some(Arc::new(report)),
+                Ok(Ok(report)) => self.state.true_axes.set = Some(Arc::new(report)),
                 Ok(Err(Cancelled)) => {}
                 Err(crash) => self.say(true, sentence(&crash.to_string())),
             }
         } else if let Some(progress) = self.annotator.set.progress() {
-            self.state.annotating.set_progress = Some(progress.share);
+            self.state.true_axes.set_progress = Some(progress.share);
         }
     }
 }

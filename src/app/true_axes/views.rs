@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Annotating, Draft, Grab, Subject};
+use super::{Draft, Grab, Subject, TrueAxesState};
 use crate::annotate::Ends;
 use crate::app::dragged;
 use crate::render::{Camera, Projection, Viewport};
@@ -21,7 +21,7 @@ pub enum EditView {
 }
 
 impl EditView {
-    /// The locked ones, in the order of [`Annotating::locked`].
+    /// The locked ones, in the order of [`TrueAxesState::locked`].
     pub const LOCKED: [Self; 3] = [Self::Front, Self::Side, Self::EndOn];
 
     /// What it is called.
@@ -72,7 +72,7 @@ impl Handle {
 /// From how many logical pixels on a handle is grabbed.
 const REACH_PX: f64 = 14.0;
 
-impl Annotating {
+impl TrueAxesState {
     /// The handle that a press at `pixel` would grab.
     pub fn handle_at(&self, pixel: DVec2, camera: &Camera, viewport: Viewport) -> Option<Handle> {
         if !self.can_edit() || self.next_end().is_some() {

@@ -1,84 +1,48 @@
-//! Work beside the interface that must all be done, in the order in which it was asked for: what is
-//! written to a disk. (In a [`crate::app::workers::Lane`] the newest request wins.)
+//! A schedule of which every job is done, in the order of submission: for what is written to a disk.
 
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread::JoinHandle;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use super::lane::{Crashed, Repaint, message_of};
+use super::locked;
+use super::pool::Pool;
+use super::schedule::{Crashed, JobId, Schedule};
 
-type Job<S, A> = Box<dyn FnOnce(&mut S) -> A + Send>;
-
-/// A worker with a state of its own, which does every job.
+/// Jobs that share a state, and of which every one is done.
 pub struct Queue<S, A> {
-    /// `None` once no more jobs are taken.
-    jobs: Option<Sender<Job<S, A>>>,
-    answers: Receiver<Result<A, Crashed>>,
-    thread: Option<JoinHandle<()>>,
-    asked: u64,
-    answered: u64,
+    schedule: Schedule<A>,
+    state: Arc<Mutex<S>>,
 }
 
 impl<S: Send + 'static, A: Send + 'static> Queue<S, A> {
-    /// Starts the worker; `repaint` is called after each job.
-    ///
-    /// # Errors
-    /// Where the operating system starts no thread.
-    pub fn new(name: &str, mut state: S, repaint: Repaint) -> std::io::Result<Self> {
-        let (jobs, to_do) = channel::<Job<S, A>>();
-        let (done, answers) = channel();
-        let thread = std::thread::Builder::new().name(name.to_owned()).spawn(move || {
-            for job in to_do {
-                // A fault in one job must not keep the others from being done.
-                let answer = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| job(&mut state)));
-                // Nobody may be listening any more: the jobs are done all the same.
-                let _ = done.send(answer.map_err(|fault| Crashed(message_of(fault.as_ref()))));
-                repaint();
-            }
-        })?;
-        Ok(Self {
-            jobs: Some(jobs),
-            answers,
-            thread: Some(thread),
-            asked: 0,
-            answered: 0,
-        })
-    }
-
-    /// Asks for a job, which is done after those before it. Its number, from 1.
-    pub fn submit(&mut self, job: impl FnOnce(&mut S) -> A + Send + 'static) -> u64 {
-        if let Some(jobs) = &self.jobs {
-            // The worker lives as long as the sender does.
-            let _ = jobs.send(Box::new(job));
-            self.asked += 1;
+    /// A queue without a job.
+    pub fn new(pool: &Pool, state: S) -> Self {
+        Self {
+            schedule: Schedule::new(pool, false),
+            state: Arc::new(Mutex::new(state)),
         }
-        self.asked
     }
 
-    /// The next answer, if it is there within that time.
-    pub fn take_within(&mut self, patience: Duration) -> Option<Result<A, Crashed>> {
-        if !self.is_busy() {
-            return None;
-        }
-        let answer = self.answers.recv_timeout(patience).ok()?;
-        self.answered += 1;
-        Some(answer)
+    /// Submits a job, which is done after those before it, and returns its number.
+    pub fn submit(&self, job: impl FnOnce(&mut S) -> A + Send + 'static) -> JobId {
+        let state = self.state.clone();
+        self.schedule.submit(move |_| job(&mut locked(&state)))
     }
 
-    /// Whether an answer is still to come or to be taken.
-    pub fn is_busy(&self) -> bool {
-        self.asked > self.answered
+    /// Takes the next job's number and answer, if the answer is there within that time.
+    pub fn take_within(&self, patience: Duration) -> Option<(JobId, Result<A, Crashed>)> {
+        self.schedule.take_within(patience)
     }
 }
 
 impl<S, A> Queue<S, A> {
-    /// Waits until everything that was asked for is done; nothing more can be asked for.
-    pub fn finish(&mut self) {
-        self.jobs = None;
-        if let Some(thread) = self.thread.take() {
-            // Faults were caught and told.
-            let _ = thread.join();
-        }
+    /// Whether an answer is still to come or to be taken.
+    pub fn is_busy(&self) -> bool {
+        self.schedule.jobs().is_busy()
+    }
+
+    /// Waits until every job that was submitted is done.
+    pub fn finish(&self) {
+        self.schedule.finish();
     }
 }
 

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use axiscope::annotate::{Annotation, Confidence, Ends, EndsError, Finding, Judgment, Method, Pivot};
-use clap::{ArgGroup, Args, ValueEnum};
+use clap::{ArgGroup, Args};
 use glam::DVec3;
 
 use crate::cli::options::{number, position};
@@ -16,22 +16,22 @@ use crate::cli::options::{number, position};
 )]
 #[command(next_help_heading = "Edit", group = ArgGroup::new("edit").multiple(true))]
 pub(super) struct Change {
-    /// Go back by one edit
+    /// Undo the last edit
     #[arg(long, conflicts_with_all = ["redo", "edit"])]
     pub(super) undo: bool,
-    /// Go forward again by one edit
+    /// Redo the edit that was undone last
     #[arg(long, conflicts_with = "edit")]
     pub(super) redo: bool,
-    /// The peduncle's base, in the file's unit and frame
+    /// Position of the peduncle's base, in the file's unit and frame
     #[arg(long, value_name = "X,Y,Z", group = "edit", value_parser = position, allow_hyphen_values = true, conflicts_with = "start")]
     base: Option<DVec3>,
-    /// The blossom end
+    /// Position of the blossom end
     #[arg(long, value_name = "X,Y,Z", group = "edit", value_parser = position, allow_hyphen_values = true, conflicts_with = "start")]
     blossom: Option<DVec3>,
-    /// Start from an axis that is known; this is recorded
+    /// Start from a known axis, which the axis file records
     #[arg(long, value_enum, group = "edit")]
-    start: Option<StartOption>,
-    /// Say that the axis cannot be told
+    start: Option<Method>,
+    /// Record that the axis cannot be told
     #[arg(long, group = "edit", conflicts_with_all = ["base", "blossom", "start", "flip", "turn", "shift", "lengthen"])]
     cannot_tell: bool,
     /// Exchange the ends
@@ -40,43 +40,24 @@ pub(super) struct Change {
     /// Turn by DEG about a direction: lean (towards the viewer or away), picture (within the picture), or X,Y,Z
     #[arg(long, value_name = "ABOUT=DEG", group = "edit", allow_hyphen_values = true)]
     turn: Vec<Turn>,
-    /// Move the whole axis
+    /// Move the whole axis by this vector
     #[arg(long, value_name = "X,Y,Z", group = "edit", value_parser = position, allow_hyphen_values = true)]
     shift: Option<DVec3>,
-    /// Make it longer by so much, or shorter
+    /// Make the axis longer by L, or shorter if L is negative
     #[arg(long, value_name = "L", group = "edit", value_parser = number, allow_negative_numbers = true)]
     lengthen: Option<f64>,
-    /// What stays in place when it is turned or lengthened
+    /// Point that stays in place when the axis is turned or lengthened
     #[arg(long, value_enum, default_value = "middle")]
-    hold: HoldOption,
-    /// How sure you are: 0 to 1, or low, medium, high (0.25, 0.5, 0.75)
+    hold: Pivot,
+    /// Your confidence: 0 to 1, or low, medium, high (0.25, 0.5, 0.75)
     #[arg(long, value_name = "SURE", group = "edit", value_parser = confidence)]
     confidence: Option<Confidence>,
-    /// Anything else
+    /// A note on the axis
     #[arg(long, value_name = "TEXT", group = "edit")]
     note: Option<String>,
-    /// Record that nothing computed was seen
+    /// Record that you saw no computed axis
     #[arg(long, requires = "edit")]
     blind: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(super) enum StartOption {
-    /// From the peduncle's axis
-    Peduncle,
-    /// From the axis that the method computes
-    Computed,
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, ValueEnum)]
-enum HoldOption {
-    /// Its middle
-    #[default]
-    Middle,
-    /// The peduncle's base
-    Base,
-    /// The blossom end
-    Blossom,
 }
 
 /// A turn by degrees about a direction.
@@ -141,8 +122,7 @@ impl Change {
         let before = current.map(|annotation| annotation.judgment.clone());
         let known = current.and_then(Annotation::ends).copied();
         let (method, mut ends) = match (self.start, self.base, self.blossom) {
-            (Some(StartOption::Peduncle), ..) => (Method::FromPeduncle, Some(start(Method::FromPeduncle)?)),
-            (Some(StartOption::Computed), ..) => (Method::FromComputed, Some(start(Method::FromComputed)?)),
+            (Some(method), ..) => (method, Some(start(method)?)),
             // Both ends anew: this does not follow from what was there.
             (None, Some(base), Some(blossom)) => (Method::ByHand, Some(Ends::new(base, blossom)?)),
             (None, base, blossom) => {
@@ -177,11 +157,6 @@ impl Change {
     }
 
     fn moved(&self, mut ends: Ends, viewpoint: DVec3) -> Result<Ends, EndsError> {
-        let pivot = match self.hold {
-            HoldOption::Middle => Pivot::Middle,
-            HoldOption::Base => Pivot::PeduncleBase,
-            HoldOption::Blossom => Pivot::BlossomEnd,
-        };
         if self.flip {
             ends = ends.flipped();
         }
@@ -192,13 +167,13 @@ impl Change {
                 About::Picture => picture,
                 About::Direction(direction) => direction,
             };
-            ends = ends.turned(about, turn.degrees, pivot)?;
+            ends = ends.turned(about, turn.degrees, self.hold)?;
         }
         if let Some(by) = self.shift {
             ends = ends.shifted(by)?;
         }
         if let Some(by) = self.lengthen {
-            ends = ends.lengthened(by, pivot)?;
+            ends = ends.lengthened(by, self.hold)?;
         }
         Ok(ends)
     }

@@ -10,7 +10,7 @@ use anyhow::Context;
 use axiscope::annotate::DiskFiles;
 use axiscope::annotate::exchange::{Placement, SlicerFrame, place, read_lines, write_line};
 use axiscope::annotate::{
-    Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError,
+    Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError, now,
 };
 use axiscope::evaluate::{Examined, examine, start_axis};
 use axiscope::fruit::Fruit;
@@ -19,53 +19,45 @@ use clap::{Args, ValueEnum};
 
 use super::options::AnalysisOptions;
 use super::progress::StageClock;
-use super::{now, usage_error};
+use super::usage_error;
 use change::Change;
 
 #[derive(Debug, Args)]
 pub(super) struct Annotate {
     /// The point cloud (PLY)
     cloud: PathBuf,
-    /// Who you are; the axis goes to CLOUD.NAME.axis.json
+    /// Your name; the axis is saved in CLOUD.NAME.axis.json
     #[arg(long, value_name = "NAME")]
     annotator: String,
-    /// Decide between the annotators: the axis that counts, in CLOUD.adjudicated.axis.json
+    /// Decide between the annotators: save the final axis in CLOUD.adjudicated.axis.json
     #[arg(long)]
     adjudicate: bool,
     #[command(flatten)]
     change: Change,
-    /// Read edits, one a line as they would stand here, from a file, or from standard input (-); each is
+    /// Read edits from a file, or from standard input (-), a line for each with the options of that edit; each is
     /// answered with `saved N` once it is on the disk
     #[arg(long, value_name = "FILE", conflicts_with_all = ["edit", "undo", "redo", "import"])]
     script: Option<PathBuf>,
-    /// Take the axis from a line of 3D Slicer's (.mrk.json), drawn from the peduncle's base to the blossom end
+    /// Import the axis from a markup line of 3D Slicer (.mrk.json), drawn from the peduncle's base to the blossom end
     #[arg(long, value_name = "FILE", conflicts_with_all = ["edit", "undo", "redo"])]
     import: Option<PathBuf>,
-    /// Which line, where the file holds several
+    /// Name of the line, if the file holds several
     #[arg(long, value_name = "NAME", requires = "import")]
     line: Option<String>,
     /// Also write the axis as a line for 3D Slicer
     #[arg(long, value_name = "FILE")]
     export: Option<PathBuf>,
-    /// In which of Slicer's frames the cloud is loaded there
+    /// Frame in which the cloud is loaded in Slicer
     #[arg(long, value_enum, default_value = "lps")]
-    slicer_frame: FrameOption,
-    /// The cloud is loaded in Slicer as it is, its numbers taken for millimeters, rather than converted
+    slicer_frame: SlicerFrame,
+    /// The cloud is loaded in Slicer with its own numbers taken for millimeters, instead of converted
     #[arg(long)]
     slicer_as_is: bool,
-    /// How to print the axis
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
     #[command(flatten)]
     analysis: AnalysisOptions,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-enum FrameOption {
-    /// Left, posterior, superior, Slicer's own choice for PLY files
-    Lps,
-    /// Right, anterior, superior
-    Ras,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
@@ -84,7 +76,7 @@ pub(super) fn run(args: &Annotate) -> anyhow::Result<()> {
     };
     let author = author.map_err(|error| usage_error(&error.to_string()))?;
     let request = args.analysis.request();
-    let fruit = Fruit::read(&args.cloud, request.unit, &request.peduncle)?;
+    let fruit = Fruit::read(&args.cloud, &request)?;
     let (mut store, writable) = open(&args.cloud, &fruit, author)?;
     let mut out = std::io::stdout().lock();
     if let Some(script) = &args.script {
@@ -210,10 +202,7 @@ fn follow(
 impl Annotate {
     fn placement(&self) -> Placement {
         Placement {
-            frame: match self.slicer_frame {
-                FrameOption::Lps => SlicerFrame::Lps,
-                FrameOption::Ras => SlicerFrame::Ras,
-            },
+            frame: self.slicer_frame,
             numbers_as_they_are: self.slicer_as_is,
         }
     }

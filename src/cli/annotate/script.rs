@@ -23,34 +23,11 @@ pub(super) fn change_of(line: &str) -> Result<Option<Change>, String> {
     Change::from_arg_matches(&matches).map(Some).map_err(one_line)
 }
 
-/// The words of a line: white space parts them, but not within quotes; a backslash takes the next
-/// character as it is. What follows a `#` that begins a word is a comment.
-fn words(line: &str) -> Result<Vec<String>, String> {
-    let mut words = Vec::new();
-    let mut word: Option<String> = None;
-    let mut quote = None;
-    let mut letters = line.chars();
-    while let Some(c) = letters.next() {
-        match (quote, c) {
-            (_, '\\') => {
-                let next = letters.next().ok_or("a backslash ends the line")?;
-                word.get_or_insert_default().push(next);
-            }
-            (Some(open), c) if c == open => quote = None,
-            (None, '"' | '\'') => {
-                quote = Some(c);
-                word.get_or_insert_default();
-            }
-            (None, c) if c.is_whitespace() => words.extend(word.take()),
-            (None, '#') if word.is_none() => break,
-            (_, c) => word.get_or_insert_default().push(c),
-        }
-    }
-    if quote.is_some() {
-        return Err("a quote is not closed".into());
-    }
-    words.extend(word);
-    Ok(words)
+/// The words of a line, parted and quoted as in a POSIX shell. What follows a `#` that begins a word is a comment.
+fn words(line: &str) -> Result<Vec<String>, &'static str> {
+    // A carriage return of a file from Windows is no part of the last word.
+    let line = line.trim_end_matches(['\r', '\n']);
+    shlex::split(line).ok_or("a quote is not closed, or a backslash ends the line")
 }
 
 #[cfg(test)]
@@ -64,7 +41,7 @@ mod tests {
             ("--note \"two words\" x", &["--note", "two words", "x"]),
             (r#"'it''s' \"q\" a\ b"#, &["its", "\"q\"", "a b"]),
             ("\"\" # a comment", &[""]),
-            ("a#b", &["a#b"]),
+            ("a#b\r\n", &["a#b"]),
             ("", &[]),
         ];
         for (line, expected) in cases {

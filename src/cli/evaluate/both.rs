@@ -1,4 +1,4 @@
-//! Both of the paper's experiments in one go: with the peduncle, and without it.
+//! `--both`: the paper's two experiments, with the peduncle and without it.
 
 use super::Evaluate;
 

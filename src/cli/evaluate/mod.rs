@@ -1,7 +1,6 @@
 //! `axiscope evaluate`: a folder of clouds, each compared with its reference.
 
 mod both;
-mod store;
 mod sweep;
 
 use std::io::Write;
@@ -9,39 +8,40 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::Context;
-use axiscope::app::many::{add_tags, read_tags};
-use axiscope::evaluate::{Row, Summary, Sweep, TruthChoice, result_files};
+use axiscope::evaluate::{
+    Reuse, Row, RowStore, Runner, StoreKind, StoredRow, Summary, Sweep, TruthChoice, add_tags,
+    annotation_files, read_tags, result_files,
+};
 use axiscope::parallel::{Watch, map_pieces};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::options::AnalysisOptions;
 use super::progress::CountingBar;
-use store::{Store, Stored};
 use sweep::SweepOption;
 
 #[derive(Debug, Clone, Args)]
 pub(super) struct Evaluate {
     /// The folder with the clouds (PLY)
     folder: PathBuf,
-    /// Which reference the error is measured against
+    /// Reference that errors are measured against
     #[arg(long, value_enum, default_value = "auto")]
-    truth: TruthOption,
+    truth: TruthChoice,
     /// The folder for results.csv, results.parquet, summary.json, report.html and the figures
     #[arg(short, long, value_name = "DIR", default_value = "evaluation")]
     out: PathBuf,
     /// Evaluate with and without the peduncle, the paper's two experiments, into two folders in DIR
     #[arg(long, conflicts_with = "without_peduncle")]
     both: bool,
-    /// Also map the mean error over settings: u=FROM..TO[:STEP] and tau=FROM..TO[:STEP], either or both
+    /// Also map the mean error over ranges of settings: u=FROM..TO[:STEP], tau=FROM..TO[:STEP], or both
     #[arg(long, value_name = "RANGE", num_args = 1..=2)]
     sweep: Vec<SweepOption>,
-    /// Do only the I-th of N parts of the folder, for a job array; the parts' results join by concatenation
+    /// Evaluate only part I of N of the folder, for a job array; the parts' tables can be concatenated
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Take what an earlier run into the same folder has finished, where cloud and settings are the same
+    /// Reuse the rows of an earlier run into the same folder whose cloud and settings are unchanged
     #[arg(long)]
     resume: bool,
-    /// Pictures of the worst clouds in the report
+    /// Number of the worst clouds that the report shows pictures of
     #[cfg(feature = "window")]
     #[arg(long, value_name = "N", default_value_t = 12)]
     pictures: usize,
@@ -49,24 +49,10 @@ pub(super) struct Evaluate {
     analysis: AnalysisOptions,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum TruthOption {
-    /// The simulator's truth where there is one, else the axis set by hand, else the peduncle
-    Auto,
-    /// The axis from the fruit center through the peduncle (§ 3.2)
-    Peduncle,
-    /// The peduncle's own direction, in which its points are spread most
-    PeduncleDirection,
-    /// The axis set by hand: the adjudicated one, else the mean of the annotators'
-    Manual,
-    /// The axis in NAME.truth.json
-    Truth,
-}
-
 /// One of several equal parts of a list.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Shard {
-    /// From 1.
+    /// The number of the part, from 1.
     index: usize,
     of: usize,
 }
@@ -96,23 +82,24 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     }
     std::fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
     let request = args.analysis.request();
-    let choice = match args.truth {
-        TruthOption::Auto => TruthChoice::Auto,
-        TruthOption::Peduncle => TruthChoice::Peduncle,
-        TruthOption::PeduncleDirection => TruthChoice::PeduncleDirection,
-        TruthOption::Manual => TruthChoice::Manual,
-        TruthOption::Truth => TruthChoice::Truth,
+    let rows_folder = args.out.join("rows");
+    std::fs::create_dir_all(&rows_folder).with_context(|| rows_folder.display().to_string())?;
+    let store = RowStore::in_folder(rows_folder, StoreKind::Record);
+    let reuse = if args.resume {
+        Reuse::WhereStored
+    } else {
+        Reuse::Never
     };
-    let store = Store::open(&args.out, &request, choice, sweep.as_ref(), args.resume)?;
+    let runner = Runner::new(&store, &request, sweep.as_ref().map(|s| (s, args.truth)), reuse);
 
     let bar = CountingBar::new("Evaluating", clouds.len());
-    let stored = evaluate_all(&args.folder, &clouds, &store, &bar)?;
+    let stored = evaluate_all(&args.folder, &clouds, &runner, &bar)?;
     bar.finish();
-    if let Some(problem) = store.problem() {
+    if let Some(problem) = store.take_problem() {
         eprintln!("Warning: a later --resume will not find every row: {problem}");
     }
 
-    let mut rows: Vec<Row> = stored.iter().map(|s| s.row.clone()).collect();
+    let mut rows: Vec<Row> = stored.iter().map(|s| s.outcome.against(args.truth)).collect();
     match read_tags(&args.folder) {
         Ok(tags) => add_tags(&mut rows, &tags),
         Err(problem) => eprintln!("Warning: {problem}"),
@@ -128,7 +115,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     #[cfg(feature = "window")]
     let pictures = {
         let (pictures, problem) =
-            axiscope::app::many::pictures_of_worst(&args.folder, &rows, &request, args.pictures);
+            axiscope::evaluate::pictures_of_worst(&args.folder, &rows, &request, args.pictures);
         if let Some(problem) = problem {
             eprintln!("Warning: {problem}");
         }
@@ -148,7 +135,7 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Every cloud in the folder, of which there is at least one.
+/// Lists the clouds of a folder; fails if there is none.
 pub(super) fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let clouds = axiscope::fruit::clouds_in(folder).with_context(|| folder.display().to_string())?;
     anyhow::ensure!(
@@ -159,17 +146,23 @@ pub(super) fn clouds_in(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     Ok(clouds)
 }
 
-/// Evaluates each cloud, several at a time; the results are in the clouds' order.
+/// Evaluates the clouds, several at a time; the results are in the clouds' order.
 fn evaluate_all(
     folder: &Path,
     clouds: &[PathBuf],
-    store: &Store<'_>,
+    runner: &Runner<'_>,
     watch: &dyn Watch,
-) -> anyhow::Result<Vec<Stored>> {
-    let one = |path: &PathBuf| store.evaluate(&Row::name_in(folder, path), path);
-    Ok(map_pieces(clouds.len(), 1, watch, |range| {
-        one(&clouds[range.start])
-    })?)
+) -> anyhow::Result<Vec<StoredRow>> {
+    let annotations = annotation_files(clouds);
+    let one = |path: &PathBuf| {
+        let annotations = annotations.get(path).map_or(&[][..], Vec::as_slice);
+        // Nobody cancels it, and it is allowed to analyze: there is a row.
+        let evaluated = runner.evaluate(&Row::name_in(folder, path), path, annotations, &());
+        evaluated.map(|evaluated| evaluated.map(|e| e.row))
+    };
+    let rows = map_pieces(clouds.len(), 1, watch, |range| one(&clouds[range.start]))?;
+    let rows = rows.into_iter().collect::<Result<Option<Vec<_>>, _>>()?;
+    rows.context("a cloud has no row")
 }
 
 fn write_summary(out: &mut impl Write, summary: &Summary) -> std::io::Result<()> {

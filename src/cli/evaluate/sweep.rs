@@ -1,4 +1,4 @@
-//! `--sweep`: the settings to try, and the map of the mean error as a table.
+//! `--sweep`: the ranges of settings.
 
 use std::str::FromStr;
 
@@ -39,7 +39,7 @@ impl FromStr for SweepOption {
 }
 
 impl SweepOption {
-    /// All settings to try; what is not swept keeps its one value. `None` where nothing is swept.
+    /// Returns all settings to try; a setting without a range keeps its value. `None` without any range.
     pub(super) fn settings(
         options: &[Self],
         u: usize,

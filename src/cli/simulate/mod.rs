@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use axiscope::geometry::Unit;
-use axiscope::ply::{self, WriteOptions};
+use axiscope::ply::{self, Encoding, WriteOptions};
 use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, seeds};
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 use glam::DVec3;
 
 use super::options::{Depths, depths, number, pair, position};
@@ -38,36 +38,18 @@ struct Output {
     /// [default: pepper.ply or ellipsoid.ply; for several, the folder peppers or ellipsoids]
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
-    /// How many clouds, each with a seed of its own that follows from --seed
+    /// Number of clouds, each with its own seed, which follows from --seed
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     count: u32,
-    /// Seed of everything random
+    /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     /// Unit of the file's coordinates
     #[arg(long, value_enum, default_value = "cm")]
-    unit: UnitOption,
-    /// How the numbers stand in the file
+    unit: Unit,
+    /// Encoding of the numbers in the file
     #[arg(long, value_enum, default_value = "binary")]
-    encoding: EncodingOption,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum UnitOption {
-    /// Meters
-    M,
-    /// Centimeters
-    Cm,
-    /// Millimeters
-    Mm,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum EncodingOption {
-    /// Binary, little-endian
-    Binary,
-    /// Text
-    Ascii,
+    encoding: Encoding,
 }
 
 #[derive(Debug, Args)]
@@ -83,10 +65,10 @@ struct Ellipsoid {
     /// The center's depth in cm, or a range FROM..TO[:STEP]: the paper's is 25..70:1
     #[arg(long, value_name = "Z", default_value = "25", value_parser = depths, allow_hyphen_values = true)]
     z0: Depths,
-    /// Visible points; the paper does not tell
+    /// Number of visible points, which the paper does not state
     #[arg(long, value_name = "N", default_value_t = 3000)]
     points: usize,
-    /// Standard deviation of the depth at 40 cm, growing with the distance's square
+    /// Standard deviation of a depth at 40 cm, in cm; it grows with the square of the distance
     #[arg(long, value_name = "CM", default_value_t = 0.0, value_parser = number, allow_hyphen_values = true)]
     noise_cm: f64,
 }
@@ -211,12 +193,7 @@ fn write_all<S>(
 
 /// Writes `NAME.ply` and `NAME.truth.json`, each whole or not at all.
 fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::Result<()> {
-    let unit = match output.unit {
-        UnitOption::M => Unit::Meter,
-        UnitOption::Cm => Unit::Centimeter,
-        UnitOption::Mm => Unit::Millimeter,
-    };
-    let simulated = simulated.clone().in_unit(unit);
+    let simulated = simulated.clone().in_unit(output.unit);
     let truth = &simulated.truth;
     let comments = [format!(
         "simulated by axiscope {}, seed {}",
@@ -224,12 +201,9 @@ fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::R
     )];
     let mut bytes = Vec::new();
     let options = WriteOptions {
-        unit: Some(unit),
+        unit: Some(output.unit),
         comments: &comments,
-        encoding: match output.encoding {
-            EncodingOption::Binary => ply::Encoding::BinaryLittleEndian,
-            EncodingOption::Ascii => ply::Encoding::Ascii,
-        },
+        encoding: output.encoding,
         ..WriteOptions::default()
     };
     ply::write(&mut bytes, &simulated.cloud, &options)?;

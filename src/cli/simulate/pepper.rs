@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use axiscope::simulate::{FruitColor, PepperSettings, Settings, Truth};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glam::DVec3;
 
 use super::Output;
 use crate::cli::options::{pair, position};
 
-/// What is not set is drawn by the seed.
+/// The settings of a pepper; the seed draws those that are not given.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub(super) struct Pepper {
@@ -23,88 +23,81 @@ pub(super) struct Pepper {
     #[arg(long, value_name = "FILE")]
     settings: Option<PathBuf>,
 
-    /// From the lowest lobe to the shoulders, in cm
+    /// Height from the lowest lobe to the shoulders, in cm
     #[arg(long, value_name = "CM", help_heading = "Fruit")]
     height_cm: Option<f64>,
-    /// Twice the largest distance of a lobe from the axis, in cm
+    /// Width in cm: twice the largest distance of a lobe from the axis
     #[arg(long, value_name = "CM", help_heading = "Fruit")]
     width_cm: Option<f64>,
-    /// How many lobes
+    /// Number of lobes
     #[arg(long, value_name = "N", help_heading = "Fruit")]
     lobes: Option<u32>,
     /// Depth of the grooves between lobes, relative to the radius
     #[arg(long, value_name = "X", help_heading = "Fruit")]
     lobe_depth: Option<f64>,
-    /// How much narrower the blossom end is, relative
+    /// Narrowing towards the blossom end, relative to the width
     #[arg(long, value_name = "X", help_heading = "Fruit")]
     taper: Option<f64>,
-    /// How far the stem end is pressed in, in cm
+    /// Depth of the dimple at the stem end, in cm
     #[arg(long, value_name = "CM", help_heading = "Fruit")]
     dimple_cm: Option<f64>,
-    /// How far the fruit departs from its own symmetry, relative to its size [default: 0.03]
+    /// Departure from symmetry, relative to the fruit's size [default: 0.03]
     #[arg(long, value_name = "X", help_heading = "Fruit")]
     asymmetry: Option<f64>,
     /// The fruit's color
     #[arg(long, value_enum, help_heading = "Fruit")]
-    color: Option<ColorOption>,
+    color: Option<FruitColor>,
     /// Length of the peduncle, in cm
     #[arg(long, value_name = "CM", help_heading = "Fruit")]
     peduncle_length_cm: Option<f64>,
-    /// Its thickness, in cm
+    /// Thickness of the peduncle, in cm
     #[arg(long, value_name = "CM", help_heading = "Fruit")]
     peduncle_width_cm: Option<f64>,
-    /// The angle between the fruit's axis and the peduncle's free end, in degrees
+    /// Angle between the fruit's axis and the peduncle's free end, in degrees
     #[arg(long, value_name = "DEG", help_heading = "Fruit")]
     peduncle_bend_deg: Option<f64>,
 
-    /// How far the stem end leans towards the camera, in degrees
+    /// Lean of the stem end towards the camera, in degrees
     #[arg(long, value_name = "DEG", help_heading = "Pose")]
     tilt_towards_camera_deg: Option<f64>,
-    /// How far the axis leans to the image's right, in degrees
+    /// Lean of the axis to the image's right, in degrees
     #[arg(long, value_name = "DEG", help_heading = "Pose")]
     tilt_sideways_deg: Option<f64>,
-    /// The largest lean towards the camera or away that is drawn [default: 25]
+    /// Largest lean towards or away from the camera that the seed draws, in degrees [default: 25]
     #[arg(long, value_name = "DEG", help_heading = "Pose")]
     max_tilt_towards_camera_deg: Option<f64>,
-    /// The largest lean to a side that is drawn [default: 25]
+    /// Largest lean to a side that the seed draws, in degrees [default: 25]
     #[arg(long, value_name = "DEG", help_heading = "Pose")]
     max_tilt_sideways_deg: Option<f64>,
-    /// The turn about the fruit's own axis, in degrees
+    /// Turn about the fruit's own axis, in degrees
     #[arg(long, value_name = "DEG", help_heading = "Pose")]
     spin_deg: Option<f64>,
-    /// The nearest and farthest depth that are drawn, in cm [default: 30,60]
+    /// Nearest and farthest depth that the seed draws, in cm [default: 30,60]
     #[arg(long, value_name = "NEAR,FAR", value_parser = pair, help_heading = "Pose")]
     distance_cm: Option<[f64; 2]>,
-    /// The fruit's center in the camera's frame, in cm
+    /// Position of the fruit's center in the camera's frame, in cm
     #[arg(long, value_name = "X,Y,Z", value_parser = position, allow_hyphen_values = true, help_heading = "Pose")]
     center_cm: Option<DVec3>,
 
-    /// Share of the fruit that a leaf in front of it hides
+    /// Fraction of the fruit that a leaf in front of it hides
     #[arg(long, value_name = "F", help_heading = "Camera")]
     leaf_cover: Option<f64>,
-    /// Standard deviation of a depth at 40 cm, in cm
+    /// Standard deviation of a depth at 40 cm, in cm; it grows with the square of the distance
     #[arg(long, value_name = "CM", help_heading = "Camera")]
     noise_cm: Option<f64>,
-    /// Depths are whole multiples of this, in cm; 0 for none
+    /// Step of the depths, which are whole multiples of it, in cm; 0 for none
     #[arg(long, value_name = "CM", help_heading = "Camera")]
     depth_step_cm: Option<f64>,
-    /// The angle between ray and normal from which pixels begin to fail
+    /// Angle between ray and normal beyond which pixels begin to fail, in degrees
     #[arg(long, value_name = "DEG", help_heading = "Camera")]
     grazing_deg: Option<f64>,
-    /// The share of all other pixels that fail at random
+    /// Fraction of all other pixels that fail at random
     #[arg(long, value_name = "F", help_heading = "Camera")]
     dropout: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ColorOption {
-    Red,
-    Yellow,
-    Green,
-}
-
 impl Pepper {
-    /// The settings that the options make; the seed is the caller's.
+    /// Returns the settings that the options make; the caller sets the seed.
     pub(super) fn settings(&self) -> anyhow::Result<PepperSettings> {
         let mut s = match &self.settings {
             Some(path) => read_settings(path)?,
@@ -116,7 +109,7 @@ impl Pepper {
         s.lobe_depth = self.lobe_depth.or(s.lobe_depth);
         s.taper = self.taper.or(s.taper);
         s.dimple_cm = self.dimple_cm.or(s.dimple_cm);
-        s.color = self.color.map(Into::into).or(s.color);
+        s.color = self.color.or(s.color);
         s.peduncle_length_cm = self.peduncle_length_cm.or(s.peduncle_length_cm);
         s.peduncle_width_cm = self.peduncle_width_cm.or(s.peduncle_width_cm);
         s.peduncle_bend_deg = self.peduncle_bend_deg.or(s.peduncle_bend_deg);
@@ -143,16 +136,6 @@ impl Pepper {
 fn set<T>(field: &mut T, option: Option<T>) {
     if let Some(value) = option {
         *field = value;
-    }
-}
-
-impl From<ColorOption> for FruitColor {
-    fn from(color: ColorOption) -> Self {
-        match color {
-            ColorOption::Red => Self::Red,
-            ColorOption::Yellow => Self::Yellow,
-            ColorOption::Green => Self::Green,
-        }
     }
 }
 

@@ -1,13 +1,13 @@
-//! Charts of an evaluation: the error per cloud, its distribution, and against what it may depend on.
+//! Charts of an evaluation: the error of each cloud, its distribution, and its dependence on other quantities.
 
 use crate::charts::{BarChart, BarSeries, Figure, Guide, Heatmap, Histogram, Labels, Scatter, ScatterSeries};
 use crate::evaluate::{Row, Sweep};
 
-/// Up to so many clouds each has a bar; beyond, a bar is no longer told from its neighbor.
+/// The largest number of clouds with a bar each: more bars could not be told apart.
 const MOST_BARS: usize = 120;
 const ERROR: &str = "Error of the axis (°)";
 
-/// Each figure with the name of its files.
+/// Makes the figures of the rows, each with the name of its files.
 pub(super) fn of_rows(rows: &[Row]) -> Vec<(&'static str, Figure)> {
     let mut figures = Vec::new();
     if rows.len() <= MOST_BARS {
@@ -70,7 +70,7 @@ fn error_per_cloud(rows: &[Row]) -> Figure {
     .into()
 }
 
-/// The map of the mean error over u and τ.
+/// Makes the map of the mean error over u and τ.
 pub(super) fn of_sweep(map: &Sweep) -> Figure {
     let settings = &map.settings;
     let cell = |u: usize, tau: usize| map.cell(u, tau).0;

@@ -1,47 +1,50 @@
-//! The results of a set of clouds as files: tables, summary, figures, and a page that stands alone. All of it is
-//! bytes; whoever asks writes them.
+//! The results of a set of clouds as files: tables, summary, figures, and a self-contained page. The caller writes
+//! the bytes to disk.
 
 mod figures;
 mod html;
+mod tables;
 
 use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Row, Summary, Sweep, TableError, csv, parquet};
+use super::{Row, Summary, Sweep};
 use crate::charts::FigureError;
 use crate::fruit::Request;
+
+pub use tables::{TableError, csv, parquet};
 
 /// A picture of one of the worst clouds, for the page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorstPicture {
-    /// The cloud's file.
+    /// The file of the cloud.
     pub file: String,
-    /// Its error in degrees.
+    /// The error in degrees.
     pub error_deg: Option<f64>,
     /// PNG bytes.
     pub png: Vec<u8>,
 }
 
-/// Why results could not be made. A clause.
+/// The reason why results could not be made. A clause.
 #[derive(Debug, thiserror::Error)]
 pub enum ResultsError {
-    /// A table.
+    /// A table could not be written.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// The summary.
+    /// The summary could not be written.
     #[error("the summary could not be written: {0}")]
     Summary(#[from] serde_json::Error),
-    /// A figure's picture.
+    /// A figure could not be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
 }
 
-/// results.csv, results.parquet, summary.json, report.html, the figures as SVG and PNG, and of a sweep its table
-/// and its map: each file's name and bytes.
+/// Makes results.csv, results.parquet, summary.json, report.html, the figures as SVG and PNG, and the table and the
+/// map of a sweep: name and bytes of each file.
 ///
 /// # Errors
-/// Where a library refuses.
+/// Returns an error if a table, the summary or a figure cannot be made.
 pub fn result_files(
     folder: &Path,
     request: &Request,
@@ -65,7 +68,7 @@ pub fn result_files(
     }
     let mut drawn = Vec::new();
     for (name, figure) in figures {
-        // A set without a single error has nothing to draw.
+        // A figure without a value cannot be drawn.
         let Ok(svg) = figure.svg() else { continue };
         files.push((format!("{name}.svg"), svg.clone().into_bytes()));
         files.push((format!("{name}.png"), figure.png(1.0)?));
@@ -76,7 +79,7 @@ pub fn result_files(
     Ok(files)
 }
 
-/// The rows that have an error, the largest first.
+/// Returns the rows that have an error, the largest error first.
 pub fn worst_first(rows: &[Row]) -> Vec<&Row> {
     let mut worst: Vec<(f64, &Row)> = rows
         .iter()
@@ -95,7 +98,7 @@ struct SweepRow {
     mean_error_deg: Option<f64>,
 }
 
-/// The map as CSV.
+/// Writes the map as CSV.
 fn sweep_table(map: &Sweep) -> Result<Vec<u8>, TableError> {
     let failed = |error: String| TableError::Csv(error);
     let mut table = csv_writer();

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 /// How ripe the fruit looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum FruitColor {
     /// Ripe and red.
     Red,

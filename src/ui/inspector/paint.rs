@@ -1,5 +1,5 @@
-//! The 3-D view inside the window's own drawing: drawn beforehand into targets of its own, little by
-//! little where a cloud is large, then laid into the window.
+//! The 3-D view within the window's drawing: it is drawn into targets of its own, a large cloud little by little, and
+//! then composited into the window.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -10,9 +10,9 @@ use egui::PaintCallbackInfo;
 
 use crate::render::{Camera, Canvas, Extract, Line, Renderer, Scene};
 
-/// What one frame of a view shows.
+/// One frame of a view.
 pub(in crate::ui) struct ViewCallback {
-    /// Which view it is: each has targets of its own.
+    /// The identity of the view, which has targets of its own.
     pub(in crate::ui) view: egui::Id,
     pub(in crate::ui) scene: Arc<Scene>,
     /// Lines that come and go with the cursor.
@@ -23,14 +23,14 @@ pub(in crate::ui) struct ViewCallback {
     pub(in crate::ui) ctx: egui::Context,
 }
 
-/// What every view shares: kept among the window's own GPU resources.
+/// All views with their shared renderer, kept among the window's own GPU resources.
 pub struct Views {
     renderer: Renderer,
     views: HashMap<egui::Id, View>,
 }
 
 impl Views {
-    /// For a window that is drawn in `format`.
+    /// Views for a window that is drawn in `format`.
     pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
         Self {
             renderer: Renderer::new(device, format),
@@ -42,8 +42,8 @@ impl Views {
 #[derive(Default)]
 struct View {
     canvas: Canvas,
-    /// What is drawn with half the pixels each way while the camera moves, where the processor draws:
-    /// most of its time goes into pixels.
+    /// A canvas of half the pixels each way, for the software driver while the camera moves: most of its time goes into
+    /// pixels.
     coarse: Canvas,
     shows_coarse: bool,
     camera: Option<Camera>,
@@ -52,7 +52,7 @@ struct View {
     lines_generation: u64,
 }
 
-/// What is in a view's targets.
+/// The content of a view's targets.
 struct Drawn {
     scene: Arc<Scene>,
     lines: Vec<Line>,
@@ -71,7 +71,7 @@ impl Drawn {
     }
 }
 
-/// How many points a frame takes, so that frames keep coming.
+/// The number of points of a frame, adapted to keep the frame rate.
 struct Pace {
     points: usize,
     last: Option<Instant>,
@@ -86,7 +86,7 @@ impl Default for Pace {
     }
 }
 
-/// Frames take about this long: 22 a second.
+/// The time of a frame: 22 per second.
 const FRAME: Duration = Duration::from_millis(45);
 
 impl Pace {
@@ -99,7 +99,7 @@ impl Pace {
         };
         if let Some(last) = self.last {
             let took = now.duration_since(last);
-            // Longer pauses are nobody's moving the camera.
+            // After a longer pause the camera was not moving.
             if took < Duration::from_millis(700) {
                 let ratio = FRAME.as_secs_f64() / took.as_secs_f64().max(1e-3);
                 // Slowly upward, quickly downward.

@@ -1,4 +1,4 @@
-//! The 3-D view: the picture, what is written over it, and what the mouse does there.
+//! The 3-D view: the picture, its page, and the mouse.
 
 use egui::{
     Align2, Color32, CursorIcon, FontId, PointerButton, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, vec2,
@@ -8,16 +8,16 @@ use glam::DVec2;
 use super::paint::ViewCallback;
 use crate::app::inspector::why::{why, why_lines};
 use crate::app::true_axes::EditView;
-use crate::app::{Command, State, Tool, Written, dragged};
+use crate::app::{Command, State, Tool, dragged, page};
 use crate::render::{Line, Viewport};
 use crate::ui::peduncle;
 use crate::ui::true_axes::Stage;
-use crate::view::{Anchor, Annotation, annotate};
+use crate::view::{Anchor, Primitive, lay_out};
 
 /// Radians a logical pixel of dragging.
 pub(in crate::ui) const ORBIT_RAD_PER_PX: f64 = 0.008;
 
-/// What the view tells the window.
+/// The view's report to the window.
 pub(in crate::ui) struct ViewAnswer {
     /// Its size in logical pixels.
     pub(in crate::ui) viewport: Viewport,
@@ -66,7 +66,7 @@ pub(in crate::ui) fn show(
             ViewCallback {
                 view: response.id,
                 scene: state
-                    .annotating
+                    .true_axes
                     .ghost_scene
                     .clone()
                     .or_else(|| state.drawn_scene())
@@ -79,8 +79,7 @@ pub(in crate::ui) fn show(
             },
         ));
     }
-    let written = Written::of(state, look);
-    let page = written.page(state, viewport);
+    let page = page(state, look, viewport);
     let font = |size: f64| FontId::proportional(size as f32);
     let measure = |text: &str, size: f64| {
         let galley = ui
@@ -89,8 +88,8 @@ pub(in crate::ui) fn show(
         f64::from(galley.size().x)
     };
     let painter = ui.painter().with_clip_rect(rect);
-    for annotation in annotate(&page, &state.camera, &measure) {
-        paint(&painter, rect, &annotation);
+    for primitive in lay_out(&page, &state.camera, &measure) {
+        paint(&painter, rect, &primitive);
     }
     stage.paint(ui, &response, state);
     notices(ui, rect, state);
@@ -98,7 +97,7 @@ pub(in crate::ui) fn show(
     answer
 }
 
-/// What a screen reader says of the view.
+/// The description of the view for screen readers.
 fn description(state: &State) -> String {
     match (state.source(), state.look.as_ref()) {
         (Some(source), Some(look)) => format!(
@@ -125,9 +124,9 @@ fn navigate(
     let shift = ui.input(|i| i.modifiers.shift);
     let mut camera = state.camera;
     let is_primary = response.dragged_by(PointerButton::Primary);
-    let is_primary = is_primary && !state.annotating.is_editing;
+    let is_primary = is_primary && !state.true_axes.is_editing;
     // Where the left button sets the axis, the right one turns.
-    let turns = state.annotating.is_editing && response.dragged_by(PointerButton::Secondary) && !shift;
+    let turns = state.true_axes.is_editing && response.dragged_by(PointerButton::Secondary) && !shift;
     let pans = (response.dragged_by(PointerButton::Secondary) && !turns)
         || response.dragged_by(PointerButton::Middle)
         || (is_primary && shift);
@@ -158,7 +157,7 @@ fn navigate(
     if state.tool == Tool::MoveCenter && response.hovered() {
         ui.ctx().set_cursor_icon(CursorIcon::Move);
     }
-    if state.annotating.is_editing {
+    if state.true_axes.is_editing {
         return;
     }
     if let Some(at) = response.interact_pointer_pos() {
@@ -206,7 +205,7 @@ fn cursor_lines(state: &State, pixels_per_point: f32) -> Vec<Line> {
     lines
 }
 
-/// What is said in the view's upper left corner while it does not show what is asked for.
+/// Draws notices in the upper left corner while the view does not show the current settings.
 fn notices(ui: &egui::Ui, rect: Rect, state: &State) {
     let mut lines: Vec<String> = Vec::new();
     if let Some((_, why)) = &state.unanalyzed {
@@ -274,11 +273,11 @@ fn empty(ui: &egui::Ui, rect: Rect, state: &State) {
     );
 }
 
-fn paint(painter: &egui::Painter, rect: Rect, annotation: &Annotation) {
+fn paint(painter: &egui::Painter, rect: Rect, primitive: &Primitive) {
     let place = |p: DVec2| rect.min + vec2(p.x as f32, p.y as f32);
     let color = |c: [u8; 4]| Color32::from_rgba_unmultiplied(c[0], c[1], c[2], c[3]);
-    match annotation {
-        Annotation::Text {
+    match primitive {
+        Primitive::Text {
             at,
             anchor,
             size_px,
@@ -306,7 +305,7 @@ fn paint(painter: &egui::Painter, rect: Rect, annotation: &Annotation) {
             }
             painter.galley(at, galley, color(*ink));
         }
-        Annotation::Line {
+        Primitive::Line {
             from,
             to,
             width_px,
@@ -317,14 +316,14 @@ fn paint(painter: &egui::Painter, rect: Rect, annotation: &Annotation) {
                 Stroke::new(*width_px as f32, color(*ink)),
             );
         }
-        Annotation::Box {
+        Primitive::Box {
             min,
             max,
             color: fill,
         } => {
             painter.rect_filled(Rect::from_min_max(place(*min), place(*max)), 2.0, color(*fill));
         }
-        Annotation::Ramp { min, max, stops } => {
+        Primitive::Ramp { min, max, stops } => {
             let mut mesh = egui::Mesh::default();
             let (min, max) = (place(*min), place(*max));
             let last = stops.len().saturating_sub(1).max(1) as f32;

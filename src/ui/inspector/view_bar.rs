@@ -2,11 +2,11 @@
 
 use egui::{ComboBox, RichText};
 
-use crate::app::{AnnotateCommand, Command, State};
+use crate::app::{Command, State, TrueAxesCommand};
 use crate::evaluate::TruthChoice;
 use crate::method::AxisSource;
-use crate::ui::window::actions::{Act, Action, Group, coloring_title};
-use crate::view::{Coloring, ViewPreset};
+use crate::ui::action::{Act, Action, Group};
+use crate::view::ViewPreset;
 
 /// Bars of less width have the places to look from in a menu.
 const WIDE: f32 = 860.0;
@@ -25,7 +25,7 @@ const PLACES: [(&str, ViewPreset); 6] = [
 pub fn show(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
     let is_wide = ui.available_width() >= WIDE;
     ui.horizontal_wrapped(|ui| {
-        colorings(ui, state, actions, acts);
+        colorings(ui, actions, acts);
         overlays(ui, actions, acts);
         if is_wide {
             ui.separator();
@@ -64,19 +64,18 @@ pub fn show(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec
     });
 }
 
-fn colorings(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
-    let current = state.shown_style().coloring;
+fn colorings(ui: &mut egui::Ui, actions: &[Action], acts: &mut Vec<Act>) {
+    let colorings = || actions.iter().filter(|action| action.group == Group::Color);
+    let current = colorings().find(|action| action.is_on == Some(true));
     let response = ComboBox::from_id_salt("coloring")
-        .selected_text(coloring_title(current))
+        .selected_text(current.map_or("", |action| action.title.as_str()))
         .width(146.0)
         .show_ui(ui, |ui| {
-            let titles = Coloring::ALL.map(coloring_title);
-            for action in actions.iter().filter(|a| a.group == Group::Color) {
+            for action in colorings() {
                 let is_on = action.is_on == Some(true);
                 let keys = action.keys_text(ui.ctx());
-                let is_known = action.is_enabled && titles.contains(&action.title.as_str());
                 let button = egui::Button::selectable(is_on, action.title.as_str()).shortcut_text(keys);
-                if is_known && ui.add(button).clicked() {
+                if action.is_enabled && ui.add(button).clicked() {
                     acts.push(action.act.clone());
                 }
             }
@@ -121,9 +120,9 @@ fn tip(ctx: &egui::Context, action: &Action) -> String {
     format!("{} ({})", action.title, action.keys_text(ctx))
 }
 
-/// Which reference the error is measured against, where there are several.
+/// The choice of the reference that the error is measured against, if there are several.
 fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
-    if state.references.len() < 2 || state.annotating.is_blind {
+    if state.references.len() < 2 || state.true_axes.is_blind {
         return;
     }
     let name = |source: &AxisSource| -> String {
@@ -147,12 +146,12 @@ fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
                     acts.push(Act::App(match &reference.source {
                         // One annotator's is none of the usual choices.
                         source @ AxisSource::Annotator(_) => {
-                            Command::Annotate(AnnotateCommand::CompareWith(source.clone()))
+                            Command::TrueAxes(TrueAxesCommand::CompareWith(source.clone()))
                         }
                         AxisSource::Simulation => Command::Compare(TruthChoice::Truth),
                         AxisSource::PeduncleDirection => Command::Compare(TruthChoice::PeduncleDirection),
                         AxisSource::Annotators(_) | AxisSource::Adjudicated => {
-                            Command::Annotate(AnnotateCommand::CompareWith(reference.source.clone()))
+                            Command::TrueAxes(TrueAxesCommand::CompareWith(reference.source.clone()))
                         }
                         _ => Command::Compare(TruthChoice::Peduncle),
                     }));

@@ -1,24 +1,24 @@
-//! The line above every panel of clouds: what is evaluated, how far that is, and against which reference.
+//! The line above every panel of clouds: evaluation, its progress, the reference, and the results.
 
 use std::time::Duration;
 
 use egui::{Button, ProgressBar, Ui, vec2};
 
 use super::FolderAnswer;
-use crate::app::many::{FolderCommand, FolderProgress};
+use crate::app::many::{EvaluationProgress, ManyCommand};
 use crate::app::{Command, State, TruthChoice};
 use crate::ui::widgets::controls::{Choice, choose};
 
 /// Shows the line.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
-    let mut say = |command| commands.push(Command::Folder(command));
+    let mut say = |command| commands.push(Command::Many(command));
     ui.horizontal_wrapped(|ui| {
         evaluation(ui, state, &mut say);
         ui.add_space(8.0);
         ui.label("Error against");
         ui.allocate_ui(vec2(150.0, ui.spacing().interact_size.y), |ui| {
-            if let Some(choice) = against(ui, state.folder.against) {
-                say(FolderCommand::Against(choice));
+            if let Some(choice) = against(ui, state.many.against) {
+                say(ManyCommand::Against(choice));
             }
         });
         results(ui, state)
@@ -26,10 +26,10 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     .inner
 }
 
-/// What can be taken along.
+/// Shows the menu of results.
 fn results(ui: &mut Ui, state: &State) -> Option<FolderAnswer> {
     let mut answer = None;
-    let folder = &state.folder;
+    let folder = &state.many;
     let has_files = folder.rows.iter().any(|row| row.path.is_some());
     let menu = ui.menu_button("Results", |ui| {
         let save = Button::new("Save results …");
@@ -55,15 +55,15 @@ fn results(ui: &mut Ui, state: &State) -> Option<FolderAnswer> {
     answer
 }
 
-fn evaluation(ui: &mut Ui, state: &State, say: &mut impl FnMut(FolderCommand)) {
-    let folder = &state.folder;
+fn evaluation(ui: &mut Ui, state: &State, say: &mut impl FnMut(ManyCommand)) {
+    let folder = &state.many;
     let count = folder.rows.len();
     if let Some(progress) = folder.progress {
         let button = ui
             .button("Cancel")
             .on_hover_text("Stop evaluating. What is done stays.");
         if button.clicked() {
-            say(FolderCommand::Cancel);
+            say(ManyCommand::Cancel);
         }
         progress_bar(ui, progress);
         return;
@@ -81,7 +81,7 @@ fn evaluation(ui: &mut Ui, state: &State, say: &mut impl FnMut(FolderCommand)) {
              before is taken over at once.",
         );
         if button.clicked() {
-            say(FolderCommand::Evaluate);
+            say(ManyCommand::Evaluate);
         }
         if has_stale {
             ui.label("Rows in italics are of other parameters.");
@@ -95,8 +95,8 @@ fn evaluation(ui: &mut Ui, state: &State, say: &mut impl FnMut(FolderCommand)) {
     }
 }
 
-/// How far something is that is done for all clouds.
-pub(in crate::ui) fn progress_bar(ui: &mut Ui, progress: FolderProgress) {
+/// Shows the progress of work on all clouds.
+pub(in crate::ui) fn progress_bar(ui: &mut Ui, progress: EvaluationProgress) {
     let left = progress.left.map(|left| format!(", {}", in_words(left)));
     let text = format!(
         "{} of {} clouds{}",
@@ -108,7 +108,7 @@ pub(in crate::ui) fn progress_bar(ui: &mut Ui, progress: FolderProgress) {
     ui.add(ProgressBar::new(share).desired_width(260.0).text(text));
 }
 
-/// How long something will take, as people say it.
+/// Describes a remaining time in words.
 fn in_words(left: Duration) -> String {
     let seconds = left.as_secs_f64();
     if seconds < 10.0 {
@@ -154,13 +154,13 @@ fn against(ui: &mut Ui, chosen: TruthChoice) -> Option<TruthChoice> {
     choose(ui, "Error against", &chosen, tip, choices)
 }
 
-/// What there is to say where nothing was evaluated yet.
+/// Explains why a panel is empty.
 pub(in crate::ui) fn nothing_yet(ui: &mut Ui, state: &State) {
     ui.add_space(24.0);
     ui.vertical_centered(|ui| {
-        let text = if state.folder.rows.is_empty() {
+        let text = if state.many.rows.is_empty() {
             "No cloud is open. Drop a folder of PLY files on the window."
-        } else if state.folder.progress.is_some() {
+        } else if state.many.progress.is_some() {
             "The first clouds are being evaluated."
         } else {
             "No cloud has an error against this reference yet. Evaluate the clouds, or choose another reference."

@@ -1,13 +1,13 @@
-//! The line that narrows the table.
+//! The line with the filter of the table.
 
 use egui::{Checkbox, ComboBox, DragValue, TextEdit, Ui};
 
-use crate::app::many::{Filter, FolderCommand};
+use crate::app::many::{Filter, ManyCommand};
 use crate::app::{Command, State};
 
 /// Shows the line.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let mut filter = state.folder.filter.clone();
+    let mut filter = state.many.filter.clone();
     ui.horizontal_wrapped(|ui| {
         ui.scope(|ui| {
             ui.visuals_mut().weak_text_color = Some(ui.visuals().text_color());
@@ -39,17 +39,17 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
             ui.add(Checkbox::new(is_on, text)).on_hover_text(tip);
         }
         tag(ui, state, &mut filter);
-        let is_empty = state.folder.filter.is_empty();
+        let is_empty = state.many.filter.is_empty();
         if !is_empty {
             if ui.button("Show all").clicked() {
                 filter = Filter::default();
             }
-            let (shown, all) = (state.folder.order.len(), state.folder.rows.len());
+            let (shown, all) = (state.many.order.len(), state.many.rows.len());
             ui.label(format!("{shown} of {all} shown"));
         }
     });
-    if filter != state.folder.filter {
-        commands.push(Command::Folder(FolderCommand::Filter(Box::new(filter))));
+    if filter != state.many.filter {
+        commands.push(Command::Many(ManyCommand::Filter(Box::new(filter))));
     }
 }
 
@@ -70,7 +70,7 @@ fn above(ui: &mut Ui, filter: &mut Filter) {
 }
 
 fn tag(ui: &mut Ui, state: &State, filter: &mut Filter) {
-    if state.folder.known_tags.is_empty() {
+    if state.many.known_tags.is_empty() {
         return;
     }
     let text = filter.tag.clone().unwrap_or_else(|| "any tag or none".into());
@@ -80,7 +80,7 @@ fn tag(ui: &mut Ui, state: &State, filter: &mut Filter) {
         .truncate()
         .show_ui(ui, |ui| {
             ui.selectable_value(&mut filter.tag, None, "any tag or none");
-            for tag in state.folder.known_tags.iter() {
+            for tag in state.many.known_tags.iter() {
                 ui.selectable_value(&mut filter.tag, Some(tag.clone()), tag);
             }
         });

@@ -1,4 +1,4 @@
-//! Small pictures of the clouds, the worst first: only those in sight are drawn.
+//! Thumbnails of the clouds, the worst first. Only visible ones are drawn.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -10,24 +10,25 @@ use egui::{
 };
 
 use super::{FolderAnswer, bar};
-use crate::app::many::{FolderCommand, KEPT_PICTURES, THUMBNAIL_PX};
+use crate::app::many::{KEPT_PICTURES, ManyCommand};
 use crate::app::{Command, State};
+use crate::evaluate::THUMBNAIL_PX;
 use crate::render::Image;
 use crate::ui::widgets::controls::{small, warning_color};
 
-/// The least width of a picture, in logical pixels.
-const LEAST_WIDTH: f32 = 170.0;
+/// The smallest width of a thumbnail in logical pixels.
+const MIN_WIDTH: f32 = 170.0;
 const GAP: f32 = 10.0;
 
-/// The clouds in the gallery's order, kept until something changes.
+/// The clouds in the order of the gallery, computed anew only after a change.
 #[derive(Debug, Clone, Default)]
-struct Hung {
+struct GalleryOrder {
     generation: u64,
-    /// By error, the largest first; behind them those without one.
+    /// Places in the list by error, the largest first, then those without an error.
     order: Vec<usize>,
 }
 
-/// What was on the screen a frame ago.
+/// The state of the previous frame.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Seen {
     current: Option<usize>,
@@ -37,7 +38,7 @@ struct Seen {
     height: f32,
 }
 
-/// A texture, and the picture that it was made of.
+/// Textures with the pictures that they were made of, by cloud.
 type Textures = HashMap<PathBuf, (Arc<Image>, TextureHandle)>;
 
 /// Draws the panel.
@@ -46,8 +47,8 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     if asked.is_some() {
         return asked;
     }
-    let hung = hung(ui, state);
-    if hung.order.is_empty() {
+    let gallery = gallery_order(ui, state);
+    if gallery.order.is_empty() {
         bar::nothing_yet(ui, state);
         return None;
     }
@@ -55,15 +56,15 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     let id = Id::unique("gallery of clouds");
     let bar = ui.spacing().scroll.allocated_width() + 2.0;
     let width = ui.available_width() - bar;
-    // At least one.
-    let columns = ((width + GAP) / (LEAST_WIDTH + GAP)).floor().max(1.0);
+    // There is at least one.
+    let columns = ((width + GAP) / (MIN_WIDTH + GAP)).floor().max(1.0);
     let [w, h] = THUMBNAIL_PX;
     let picture_width = (width + GAP) / columns - GAP;
     let picture = vec2(picture_width, picture_width * h as f32 / w as f32);
     let text = ui.text_style_height(&TextStyle::Body);
     let card = vec2(picture_width, picture.y + 2.0 * text + 8.0);
     let columns = columns as usize;
-    let rows = hung.order.len().div_ceil(columns);
+    let rows = gallery.order.len().div_ceil(columns);
     ui.spacing_mut().item_spacing = vec2(GAP, GAP);
 
     let seen: Seen = ui.data(|data| data.get_temp(id)).unwrap_or_default();
@@ -72,7 +73,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     if seen.current != state.current || frame > seen.frame + 1 {
         let place = state
             .current
-            .and_then(|c| hung.order.iter().position(|&p| p == c));
+            .and_then(|c| gallery.order.iter().position(|&p| p == c));
         let top = place.map(|place| (place / columns) as f32 * (card.y + GAP));
         let height = if seen.height > 0.0 {
             seen.height
@@ -89,7 +90,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     let output = area.show_rows(ui, card.y, rows, |ui, range| {
         for row in range {
             ui.horizontal(|ui| {
-                let places = hung.order.iter().skip(row * columns).take(columns);
+                let places = gallery.order.iter().skip(row * columns).take(columns);
                 for &place in places {
                     in_sight.push(place);
                     if self::card(ui, id, card, picture, state, place).clicked() {
@@ -100,7 +101,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
         }
     });
     if in_sight != seen.in_sight || frame > seen.frame + 1 {
-        commands.push(Command::Folder(FolderCommand::Picture(in_sight.clone())));
+        commands.push(Command::Many(ManyCommand::Picture(in_sight.clone())));
     }
     let seen = Seen {
         current: state.current,
@@ -116,10 +117,10 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 }
 
 fn hint(ui: &mut Ui, state: &State) {
-    let filtered = if state.folder.filter.is_empty() {
+    let filtered = if state.many.filter.is_empty() {
         String::new()
     } else {
-        let (shown, all) = (state.folder.order.len(), state.folder.rows.len());
+        let (shown, all) = (state.many.order.len(), state.many.rows.len());
         format!(" {shown} of {all} clouds, as the table is filtered.")
     };
     let text = format!(
@@ -129,10 +130,10 @@ fn hint(ui: &mut Ui, state: &State) {
     ui.label(RichText::new(text).font(small(ui)));
 }
 
-fn hung(ui: &Ui, state: &State) -> Arc<Hung> {
+fn gallery_order(ui: &Ui, state: &State) -> Arc<GalleryOrder> {
     let id = Id::unique("order of the gallery");
-    let kept: Option<Arc<Hung>> = ui.data(|data| data.get_temp(id));
-    let folder = &state.folder;
+    let kept: Option<Arc<GalleryOrder>> = ui.data(|data| data.get_temp(id));
+    let folder = &state.many;
     if let Some(kept) = kept.filter(|kept| kept.generation == folder.generation) {
         return kept;
     }
@@ -142,7 +143,7 @@ fn hung(ui: &Ui, state: &State) -> Arc<Hung> {
         (Some(a), Some(b)) => b.total_cmp(&a),
         (a, b) => b.is_some().cmp(&a.is_some()),
     });
-    let made = Arc::new(Hung {
+    let made = Arc::new(GalleryOrder {
         generation: folder.generation,
         order,
     });
@@ -151,12 +152,12 @@ fn hung(ui: &Ui, state: &State) -> Arc<Hung> {
 }
 
 fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: usize) -> Response {
-    let row = &state.folder.rows[place];
+    let row = &state.many.rows[place];
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let response = ui.interact(rect, id.with(place), Sense::click());
     let is_current = state.current == Some(place);
-    let error = row.error_deg(state.folder.against);
-    // The picture is of the parameters in force, the error not yet.
+    let error = row.error_deg(state.many.against);
+    // The thumbnail may belong to the current parameters already, while the error does not.
     let before = if row.is_stale { " before" } else { "" };
     let off = error.map(|e| format!("{e:.1}°{before}"));
     response.widget_info(|| {
@@ -170,7 +171,7 @@ fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: us
     let drawn = row
         .path
         .as_ref()
-        .and_then(|path| Some((path, state.folder.pictures.get(path)?)));
+        .and_then(|path| Some((path, state.many.pictures.get(path)?)));
     match drawn.map(|(path, drawn)| (path, &drawn.image, drawn.is_stale)) {
         Some((path, Ok(image), is_stale)) => {
             let texture = texture(ui, path, image);
@@ -209,9 +210,9 @@ fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: us
     let below = pos2(frame.left(), first + line + 1.0);
     let place = Rect::from_min_max(below, pos2(frame.right(), below.y + line));
     let second = if row.tagged.tags.is_empty() {
-        // Why a cloud cannot be used stands in place of its picture.
+        // The reason why a cloud is unusable is written in place of its thumbnail.
         let usable = row.outcome.as_ref().filter(|o| o.row().sha256.is_some());
-        let failure = usable.and_then(|_| row.failure(state.folder.against));
+        let failure = usable.and_then(|_| row.failure(state.many.against));
         failure.map(crate::text::sentence).unwrap_or_default()
     } else {
         row.tagged.tags.join(", ")
@@ -224,7 +225,7 @@ fn card(ui: &mut Ui, id: Id, size: Vec2, picture: Vec2, state: &State, place: us
     }
 }
 
-/// A line that is cut off where it is too long.
+/// Writes a line of text, truncated to the width.
 fn one_line(ui: &Ui, place: Rect, text: RichText) {
     let text = egui::WidgetText::from(text);
     let galley = text.into_galley(
@@ -245,7 +246,7 @@ fn words(ui: &Ui, frame: Rect, text: &str, color: Color32) {
     painter.galley(place, galley, color);
 }
 
-/// The picture on the GPU, kept within bounds.
+/// Returns the texture of a thumbnail; their number is bounded.
 fn texture(ui: &Ui, path: &PathBuf, image: &Arc<Image>) -> TextureHandle {
     let id = Id::unique("textures of the gallery");
     let textures: Arc<egui::mutex::Mutex<Textures>> = ui.data_mut(|data| {
@@ -261,7 +262,7 @@ fn texture(ui: &Ui, path: &PathBuf, image: &Arc<Image>) -> TextureHandle {
     if textures.len() >= KEPT_PICTURES {
         textures.clear();
     }
-    // Sides of some hundred pixels.
+    // The sides are some hundred pixels long.
     let size = [image.width_px as usize, image.height_px as usize];
     let pixels = ColorImage::from_rgba_unmultiplied(size, &image.rgba);
     let name = path.display().to_string();

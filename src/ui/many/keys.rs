@@ -1,15 +1,15 @@
-//! What can be done with the open clouds as a set, by key.
+//! The keyboard actions on the open clouds as a set.
 
 use egui::{Key, Modifiers};
 
-use crate::app::many::FolderCommand;
+use crate::app::many::ManyCommand;
 use crate::app::{Command, State};
-use crate::ui::window::actions::{Action, Group, WindowAct};
-use crate::ui::window::layout::Pane;
+use crate::ui::action::{Action, Group, WindowAct};
+use crate::ui::pane::Pane;
 
-/// The actions of this room.
+/// Returns the actions.
 pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
-    let folder = &state.folder;
+    let folder = &state.many;
     let pane = |title: &str, pane, key| {
         Action::window(title, Group::Window, WindowAct::Show(pane)).key(Modifiers::COMMAND, key)
     };
@@ -18,19 +18,19 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
         Action::app(
             Group::File,
             "Stop evaluating the clouds",
-            Command::Folder(FolderCommand::Cancel),
+            Command::Many(ManyCommand::Cancel),
         )
     } else {
         Action::app(
             Group::File,
             "Evaluate all open clouds",
-            Command::Folder(FolderCommand::Evaluate),
+            Command::Many(ManyCommand::Evaluate),
         )
-        // Where nothing is missing: files may have changed.
+        // Also if no row is missing: files may have changed.
         .when(has_files)
     };
     let worse = |title: &str, by, key| {
-        Action::app(Group::File, title, Command::Folder(FolderCommand::GoWorse(by)))
+        Action::app(Group::File, title, Command::Many(ManyCommand::GoWorse(by)))
             .key(Modifiers::SHIFT, key)
             .when(folder.rows.len() > 1)
             .repeating()

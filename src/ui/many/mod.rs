@@ -1,4 +1,4 @@
-//! The open clouds as a set: a table, charts, a gallery and a map over settings, each a panel.
+//! The panels about the open clouds as a set: table, charts, gallery, and the map over settings.
 
 mod bar;
 mod charts;
@@ -12,20 +12,20 @@ mod tagging;
 use egui::Ui;
 
 use crate::app::{Command, State};
-use crate::ui::window::layout::Pane;
+use crate::ui::pane::Pane;
 
-/// What a panel of clouds cannot do itself.
+/// A request of a panel to the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FolderAnswer {
-    /// The view is wanted in front: a cloud was chosen to be looked at.
+    /// Bring the view to the front: the user chose a cloud.
     ShowView,
-    /// Somebody wants to say where results are to be saved.
+    /// Ask for the folder to save results in.
     SaveResults,
-    /// The command line that evaluates the same is wanted on the clipboard.
+    /// Copy the command line of the same evaluation to the clipboard.
     CopyCommandLine,
 }
 
-/// Draws one of the panels; says whether the view is wanted.
+/// Draws one of the panels.
 pub fn show(ui: &mut Ui, pane: Pane, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
     match pane {
         Pane::Table => table::show(ui, state, commands),

@@ -1,17 +1,17 @@
-//! The map of the mean error over u and τ: a cell a setting, which a click opens.
+//! The map of the mean error over u and τ. A click on a cell opens its setting.
 
 use egui::{
     Align2, Button, Checkbox, DragValue, Mesh, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::{FolderAnswer, bar};
-use crate::app::many::{FolderCommand, SweepState};
+use crate::app::many::{ManyCommand, SweepState};
 use crate::app::{Command, State};
 use crate::evaluate::Sweep;
 use crate::method::CandidateGrid;
 use crate::ui::widgets::controls::hint;
+use crate::ui::widgets::marks::ramp_color;
 use crate::ui::widgets::marks::{self, Mark};
-use crate::ui::widgets::planes::ramp_color;
 
 /// Draws the panel.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
@@ -19,8 +19,8 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     if asked.is_some() {
         return asked;
     }
-    wish(ui, state, commands);
-    let sweep = &state.folder.sweep;
+    ranges(ui, state, commands);
+    let sweep = &state.many.sweep;
     let Some(map) = &sweep.map else {
         ui.add_space(8.0);
         hint(
@@ -44,38 +44,38 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     None
 }
 
-/// The ranges, and the button that begins.
-fn wish(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let sweep = &state.folder.sweep;
-    let mut wish = sweep.wish.clone();
-    let mut say = |command| commands.push(Command::Folder(command));
+/// Shows the fields of the ranges, and the button that starts the sweep.
+fn ranges(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let sweep = &state.many.sweep;
+    let mut ranges = sweep.ranges.clone();
+    let mut say = |command| commands.push(Command::Many(command));
     ui.horizontal_wrapped(|ui| {
         let of_u = CandidateGrid::MIN_U..=60;
         ui.label("u from");
-        ui.add(DragValue::new(&mut wish.u[0]).range(of_u.clone()))
+        ui.add(DragValue::new(&mut ranges.u[0]).range(of_u.clone()))
             .accessible_name("Least u");
         ui.label("to");
-        ui.add(DragValue::new(&mut wish.u[1]).range(of_u))
+        ui.add(DragValue::new(&mut ranges.u[1]).range(of_u))
             .accessible_name("Most u");
         ui.label("by");
-        ui.add(DragValue::new(&mut wish.u_step).range(1..=10))
+        ui.add(DragValue::new(&mut ranges.u_step).range(1..=10))
             .accessible_name("Step of u");
         ui.add_space(10.0);
         ui.label("τ from");
-        ui.add(tau_field(&mut wish.tau_cm_per_rad[0]))
+        ui.add(tau_field(&mut ranges.tau_cm_per_rad[0]))
             .accessible_name("Least τ, in cm/rad");
         ui.label("to");
-        ui.add(tau_field(&mut wish.tau_cm_per_rad[1]))
+        ui.add(tau_field(&mut ranges.tau_cm_per_rad[1]))
             .accessible_name("Most τ, in cm/rad");
         ui.label("by");
-        let step = DragValue::new(&mut wish.tau_step_cm_per_rad)
+        let step = DragValue::new(&mut ranges.tau_step_cm_per_rad)
             .range(0.01..=5.0)
             .speed(0.01)
             .max_decimals(3);
         ui.add(step).accessible_name("Step of τ, in cm/rad");
         ui.label("cm/rad");
         ui.add_space(10.0);
-        ui.add(Checkbox::new(&mut wish.only_current, "this cloud only"))
+        ui.add(Checkbox::new(&mut ranges.only_current, "this cloud only"))
             .on_hover_text("Sweep the current cloud instead of all that the table shows");
     });
     ui.horizontal_wrapped(|ui| {
@@ -85,19 +85,19 @@ fn wish(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 .on_hover_text("Stop. The map stays as far as it came.")
                 .clicked()
             {
-                say(FolderCommand::CancelSweep);
+                say(ManyCommand::CancelSweep);
             }
             bar::progress_bar(ui, progress);
             return;
         }
-        let settings = wish.settings();
+        let settings = ranges.settings();
         let count = settings
             .as_ref()
             .map_or(0, |s| s.u.len() * s.tau_cm_per_rad.len());
-        let clouds = if wish.only_current {
+        let clouds = if ranges.only_current {
             1
         } else {
-            state.folder.order.len()
+            state.many.order.len()
         };
         let noun = if clouds == 1 { "cloud" } else { "clouds" };
         let button = Button::new(format!("Sweep {count} settings over {clouds} {noun}"));
@@ -106,11 +106,11 @@ fn wish(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             .on_hover_text("In the background. Each u is computed once for all its τ.")
             .on_disabled_hover_text("These ranges hold no settings, or too many.");
         if button.clicked() {
-            say(FolderCommand::Sweep);
+            say(ManyCommand::Sweep);
         }
     });
-    if wish != sweep.wish {
-        say(FolderCommand::Wish(Box::new(wish)));
+    if ranges != sweep.ranges {
+        say(ManyCommand::SweepRanges(Box::new(ranges)));
     }
 }
 
@@ -121,7 +121,7 @@ fn tau_field(value: &mut f64) -> DragValue<'_> {
         .max_decimals(3)
 }
 
-/// Of how many clouds the map is, and whether it is still of what is in force.
+/// Says how many clouds the map contains, and whether it belongs to the current parameters.
 fn about(ui: &mut Ui, sweep: &SweepState) {
     let [done, asked] = sweep.clouds;
     let mut text = match (done, asked) {
@@ -135,7 +135,7 @@ fn about(ui: &mut Ui, sweep: &SweepState) {
     hint(ui, text);
 }
 
-/// The least and the largest mean, and where the least is.
+/// Returns the smallest and the largest mean, and the cell of the smallest.
 #[derive(Debug, Clone, Copy)]
 struct Extremes {
     low_deg: f64,
@@ -162,7 +162,7 @@ fn extremes(map: &Sweep) -> Option<Extremes> {
     found
 }
 
-/// Where the cells are: u across, τ upward.
+/// The geometry of the map: u to the right, τ upward.
 struct Cells {
     place: Rect,
     across: usize,
@@ -187,7 +187,7 @@ impl Cells {
             return None;
         }
         let share = (place - self.place.left_bottom()) / vec2(self.place.width(), -self.place.height());
-        // Within the map, so between 0 and 1.
+        // The position is within the map, so both shares are between 0 and 1.
         let step = |share: f32, count: usize| ((share * count as f32) as usize).min(count - 1);
         Some((step(share.x, self.across), step(share.y, self.up)))
     }
@@ -231,7 +231,7 @@ fn draw(ui: &mut Ui, state: &State, map: &Sweep, range: Extremes, commands: &mut
     if let Some((i, j)) = hovered {
         explain(&response, map, i, j);
         if response.clicked() {
-            commands.push(Command::Folder(FolderCommand::OpenSetting {
+            commands.push(Command::Many(ManyCommand::OpenSetting {
                 u: map.settings.u[i],
                 tau_cm_per_rad: map.settings.tau_cm_per_rad[j],
             }));
@@ -262,7 +262,7 @@ fn paint_cells(ui: &Ui, map: &Sweep, cells: &Cells, range: Extremes) {
         }
     }
     ui.painter().add(mesh);
-    // Where there is room, the number itself.
+    // The number, if there is room for it.
     let font = marks::label_font(ui);
     let size = cells.of(0, 0).size();
     if size.x < 2.6 * font.size || size.y < 1.3 * font.size {
@@ -287,7 +287,7 @@ fn paint_marks(ui: &Ui, state: &State, map: &Sweep, cells: &Cells, range: Extrem
     let params = &state.settings.request.params;
     let i = map.settings.u.iter().position(|&u| u == params.u);
     let taus = &map.settings.tau_cm_per_rad;
-    // The usual τ, 3/π, is seldom a step: the nearest cell, if it is near.
+    // The default τ, 3/π, is seldom one of the steps: the nearest cell, if it is close, counts as current.
     let step = taus.windows(2).map(|w| w[1] - w[0]).next().unwrap_or(0.1);
     let off = |tau: f64| (tau - params.tau_cm_per_rad).abs();
     let nearest = (0..taus.len()).min_by(|&a, &b| off(taus[a]).total_cmp(&off(taus[b])));
@@ -305,7 +305,7 @@ fn paint_labels(ui: &Ui, map: &Sweep, cells: &Cells) {
     let color = ui.visuals().text_color();
     let painter = ui.painter();
     let size = cells.of(0, 0).size();
-    // Every so many, so that labels keep apart.
+    // Only every n-th label, so that labels do not overlap.
     let every = |cell: f32, least: f32| ((least / cell).ceil() as usize).max(1);
     for i in (0..cells.across).step_by(every(size.x, 2.2 * font.size)) {
         let cell = cells.of(i, 0);

@@ -3,15 +3,15 @@
 
 use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{
-    Align2, Color32, EventFilter, FontId, Id, Key, Modifiers, Panel, Rect, Response, Role, ScrollArea, Sense,
+    Color32, EventFilter, FontId, Id, Key, Modifiers, Panel, Rect, Response, Role, ScrollArea, Sense,
     TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::{FolderAnswer, bar, filters, tagging};
-use crate::app::many::{Column, FolderCommand, Sort, TableRow};
+use crate::app::many::{Column, ManyCommand, Sort, TableRow};
 use crate::app::{Command, State};
 use crate::ui::widgets::controls::warning_color;
-use crate::ui::widgets::rows::{arrow, into_view};
+use crate::ui::widgets::rows::{ColumnHead, list, row, underline};
 
 impl Column {
     fn title(self) -> &'static str {
@@ -72,9 +72,6 @@ impl Column {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Seen {
     current: Option<usize>,
-    generation: u64,
-    top: f32,
-    height: f32,
     frame: u64,
 }
 
@@ -88,7 +85,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     Panel::bottom("tags of a cloud")
         .show_separator_line(true)
         .show(ui, |ui| tagging::show(ui, state, commands));
-    if state.folder.rows.is_empty() {
+    if state.many.rows.is_empty() {
         ui.label("No cloud is open. Drop PLY files or a folder on the window.");
         return None;
     }
@@ -104,7 +101,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
             ui.set_width(width + scroll);
             ui.spacing_mut().item_spacing.y = 0.0;
             header(ui, id, width, state, commands);
-            if state.folder.order.is_empty() {
+            if state.many.order.is_empty() {
                 ui.add_space(8.0);
                 ui.label("No cloud passes the filter.");
             } else {
@@ -137,100 +134,64 @@ fn header(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Com
     let font = TextStyle::Body.resolve(ui.style());
     let height = ui.text_style_height(&TextStyle::Body) + 8.0;
     let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-    let sort = state.folder.sort;
+    let sort = state.many.sort;
     for (column, (from, to)) in Column::ALL.into_iter().zip(columns(width, 0.54 * font.size)) {
         let place = Rect::from_min_max(
             pos2(rect.left() + from, rect.top()),
             pos2(rect.left() + to, rect.bottom()),
         );
-        let response = ui.interact(place, id.with(column.title()), Sense::click());
         let is_sorted_by = sort.by == column;
-        response.widget_info(|| {
-            let label = format!("Sort by {}", column.title());
-            WidgetInfo::selected(Role::ColumnHeader, true, is_sorted_by, label)
-        });
-        if response.clicked() {
+        let head = ColumnHead {
+            title: column.title(),
+            tip: format!(
+                "{}. A click sorts by it, another turns the order.",
+                column.explained()
+            ),
+            is_left: column.is_text(),
+            margin: 6.0,
+            is_descending: is_sorted_by.then_some(sort.is_descending),
+        };
+        if head.show(ui, id, place).clicked() {
             let sort = Sort {
                 by: column,
                 is_descending: is_sorted_by && !sort.is_descending,
             };
-            commands.push(Command::Folder(FolderCommand::Sort(sort)));
+            commands.push(Command::Many(ManyCommand::Sort(sort)));
         }
-        if response.hovered() || response.has_focus() {
-            let fill = ui.style().interact(&response).weak_bg_fill;
-            ui.painter().rect_filled(place.shrink(1.0), 3.0, fill);
-        }
-        let color = ui.visuals().strong_text_color();
-        let painter = ui.painter();
-        let (end, align) = if column.is_text() {
-            (place.left_center() + vec2(6.0, 0.0), Align2::LEFT_CENTER)
-        } else {
-            (place.right_center() - vec2(6.0, 0.0), Align2::RIGHT_CENTER)
-        };
-        let text = painter.text(end, align, column.title(), font.clone(), color);
-        if is_sorted_by {
-            let x = if column.is_text() {
-                text.right() + 8.0
-            } else {
-                text.left() - 7.0
-            };
-            arrow(ui, pos2(x, place.center().y), sort.is_descending);
-        }
-        response.on_hover_text(format!(
-            "{}. A click sorts by it, another turns the order.",
-            column.explained()
-        ));
     }
-    let line = ui.visuals().widgets.noninteractive.bg_stroke;
-    ui.painter().hline(rect.x_range(), rect.bottom(), line);
+    underline(ui, rect);
 }
 
 fn body(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
-    let folder = &state.folder;
+    let folder = &state.many;
     let row_height = ui.text_style_height(&TextStyle::Body) + 6.0;
     let seen_id = id.with("seen");
     let seen: Seen = ui.data(|data| data.get_temp(seen_id)).unwrap_or_default();
     let frame = ui.ctx().cumulative_frame_nr();
     let keyboard = keyboard(ui, id, seen, frame);
     let mut answer = by_keys(ui, &keyboard, commands);
-    let mut area = ScrollArea::vertical()
-        .id_salt(id.with("rows"))
-        .auto_shrink([false, false]);
     let was_hidden = frame > seen.frame + 1;
-    if seen.current != state.current || was_hidden {
-        // Chosen elsewhere: into view with it, unless it is there already.
-        let place = state
-            .current
-            .and_then(|c| folder.order.iter().position(|&p| p == c));
-        let height = if seen.height > 0.0 {
-            seen.height
-        } else {
-            ui.available_height()
-        };
-        if let Some(place) = place {
-            area = into_view(area, place, row_height, seen.top, height);
+    // A cloud that was chosen elsewhere comes into view.
+    let wanted = state
+        .current
+        .filter(|_| seen.current != state.current || was_hidden)
+        .and_then(|current| folder.order.iter().position(|&place| place == current));
+    list(ui, id, row_height, folder.order.len(), wanted, |ui, row| {
+        let place = folder.order[row];
+        let response = cloud_row(ui, id, vec2(width, row_height), state, place);
+        if response.clicked() {
+            commands.push(Command::Show(place));
+            ui.memory_mut(|memory| memory.request_focus(keyboard.id));
         }
-    }
-    let output = area.show_rows(ui, row_height, folder.order.len(), |ui, range| {
-        for place in range.filter_map(|row| folder.order.get(row)).copied() {
-            let response = row(ui, id, vec2(width, row_height), state, place);
-            if response.clicked() {
-                commands.push(Command::Show(place));
-                ui.memory_mut(|memory| memory.request_focus(keyboard.id));
-            }
-            if response.double_clicked() {
-                answer = Some(FolderAnswer::ShowView);
-            }
-            if response.hovered() {
-                explain(response, &folder.rows[place]);
-            }
+        if response.double_clicked() {
+            answer = Some(FolderAnswer::ShowView);
+        }
+        if response.hovered() {
+            explain(response, &folder.rows[place]);
         }
     });
     let seen = Seen {
         current: state.current,
-        generation: folder.generation,
-        top: output.state.clamped_offset().y,
-        height: output.inner_rect.height(),
         frame,
     };
     ui.data_mut(|data| data.insert_temp(seen_id, seen));
@@ -270,28 +231,15 @@ fn by_keys(ui: &Ui, keyboard: &Response, commands: &mut Vec<Command>) -> Option<
     (pressed(Key::Enter) > 0).then_some(FolderAnswer::ShowView)
 }
 
-fn row(ui: &mut Ui, id: Id, size: Vec2, state: &State, place: usize) -> Response {
-    let row = &state.folder.rows[place];
-    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-    let response = ui.interact(rect, id.with(("row", place)), Sense::click());
+fn cloud_row(ui: &mut Ui, id: Id, size: Vec2, state: &State, place: usize) -> Response {
+    let cloud = &state.many.rows[place];
     let is_current = state.current == Some(place);
-    response.widget_info(|| {
-        let error = match row.error_deg(state.folder.against) {
-            Some(error) => format!(", {error:.1}° off"),
-            None => String::new(),
-        };
-        WidgetInfo::selected(Role::Row, true, is_current, format!("{}{error}", row.name))
+    let (response, color) = row(ui, id.with(("row", place)), size, is_current, || {
+        let error = cloud.error_deg(state.many.against);
+        let error = error.map_or(String::new(), |error| format!(", {error:.1}° off"));
+        format!("{}{error}", cloud.name)
     });
-    let visuals = ui.visuals();
-    let (fill, color) = if is_current {
-        (visuals.selection.bg_fill, visuals.selection.stroke.color)
-    } else if response.hovered() {
-        let hovered = &visuals.widgets.hovered;
-        (hovered.weak_bg_fill, hovered.text_color())
-    } else {
-        (Color32::TRANSPARENT, visuals.text_color())
-    };
-    ui.painter().rect_filled(rect, 2.0, fill);
+    let rect = response.rect;
     let font = TextStyle::Body.resolve(ui.style());
     let edges = columns(size.x, 0.54 * font.size);
     let cell = |from: usize, to: usize| {
@@ -301,17 +249,25 @@ fn row(ui: &mut Ui, id: Id, size: Vec2, state: &State, place: usize) -> Response
             pos2(rect.left() + right, rect.bottom()),
         )
     };
-    let unusable = row.outcome.as_ref().filter(|o| o.row().sha256.is_none());
-    for (i, (column, text)) in Column::ALL.into_iter().zip(row.cells.iter()).enumerate() {
+    let unusable = cloud.outcome.as_ref().filter(|o| o.row().sha256.is_none());
+    for (i, (column, text)) in Column::ALL.into_iter().zip(cloud.cells.iter()).enumerate() {
         let is_covered = unusable.is_some() && (2..=7).contains(&i);
         if !text.is_empty() && !is_covered {
-            write(ui, cell(i, i), text, column.is_text(), row.is_stale, &font, color);
+            write(
+                ui,
+                cell(i, i),
+                text,
+                column.is_text(),
+                cloud.is_stale,
+                &font,
+                color,
+            );
         }
     }
     if let Some(failure) = unusable.and_then(|o| o.row().failure.as_ref()) {
         // On the current row's ground the warning's color has too little contrast.
         let color = if is_current { color } else { warning_color(ui) };
-        write(ui, cell(2, 7), failure, true, row.is_stale, &font, color);
+        write(ui, cell(2, 7), failure, true, cloud.is_stale, &font, color);
     }
     response
 }

@@ -2,23 +2,24 @@
 
 use egui::{Id, Label, RichText, TextEdit, Ui};
 
-use crate::app::many::{FolderCommand, TableRow, Tagged};
+use crate::app::many::{ManyCommand, TableRow};
 use crate::app::{Command, State};
+use crate::evaluate::Tagged;
 use crate::ui::widgets::controls::{small, warning_color};
 
-/// What is being typed, and for which cloud: commas and spaces stay as they are typed.
+/// The text of the fields and its cloud. Commas and spaces stay as the user typed them.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Typed {
     place: usize,
     tags: String,
-    /// What the field last said, or was told.
+    /// The tags that the text stands for.
     tagged: Tagged,
 }
 
-/// Shows the fields, and what is known of the cloud.
+/// Shows the cloud's name and problems, and the fields.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(place) = state.current else { return };
-    let Some(row) = state.folder.rows.get(place) else {
+    let Some(row) = state.many.rows.get(place) else {
         return;
     };
     ui.add_space(2.0);
@@ -27,7 +28,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
         ui.horizontal(|ui| {
             let id = Id::unique("typed tags");
             let mut typed: Typed = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-            // Changed elsewhere: by undo, or because another cloud is shown.
+            // The tags changed elsewhere: by undo, or because another cloud is shown.
             if typed.place != place || typed.tagged != row.tagged {
                 typed = Typed {
                     place,
@@ -77,27 +78,27 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 }
 
 fn say(place: usize, tagged: &Tagged, commands: &mut Vec<Command>) {
-    commands.push(Command::Folder(FolderCommand::Tag {
+    commands.push(Command::Many(ManyCommand::Tag {
         place,
         tagged: tagged.clone(),
     }));
 }
 
-/// What is typed into a field at one go is one step of undo.
+/// Makes the text typed in one visit of a field a single step of undo.
 fn ends(field: &egui::Response, commands: &mut Vec<Command>) {
     if field.lost_focus() {
         commands.push(Command::EndGesture);
     }
 }
 
-/// The cloud's name, and why it has no error or what is warned of.
+/// Shows the cloud's name, and the reason why it has no error, or its warnings.
 fn about(ui: &mut Ui, state: &State, row: &TableRow) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(&row.name).strong());
         let Some(outcome) = &row.outcome else { return };
-        if let Some(error) = row.error_deg(state.folder.against) {
+        if let Some(error) = row.error_deg(state.many.against) {
             ui.label(format!("{error:.1}° off"));
-        } else if let Some(failure) = row.failure(state.folder.against) {
+        } else if let Some(failure) = row.failure(state.many.against) {
             let text = RichText::new(crate::text::sentence(failure)).color(warning_color(ui));
             ui.add(Label::new(text).truncate());
         }

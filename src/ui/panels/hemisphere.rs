@@ -1,13 +1,11 @@
 //! Every candidate normal on a hemisphere: a dot a plane, seen from the camera's side unless turned.
 
-use egui::{
-    Color32, EventFilter, Key, Modifiers, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2,
-};
+use egui::{Color32, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use glam::DVec3;
 
+use crate::app::inspector::planes::Planes;
 use crate::app::{Command, State};
-use crate::ui::widgets::marks::{self, Mark};
-use crate::ui::widgets::planes::Planes;
+use crate::ui::widgets::marks::{self, Mark, color32};
 use crate::ui::widgets::{color_scale, notice, plane_tip};
 use crate::view::AXIS_COLOR;
 
@@ -15,19 +13,16 @@ const REFERENCE_COLOR: crate::render::Color = [255; 4];
 
 /// Draws the panel.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let Some(planes) = Planes::of(ui.ctx(), state) else {
-        notice::nothing_to_show(ui, state, commands);
+    let Some(planes) = notice::planes_or_reason(ui, state, commands) else {
         return;
     };
-    notice::if_stale(ui, state, commands);
-    notice::if_no_plane(ui, &planes.analysis);
     if ui.available_height() > 270.0 {
         marks::key(ui, &entries(state, &planes));
     }
     let opacity = notice::opacity(state);
     let size = ui.available_size().max(vec2(120.0, 120.0));
     let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
-    let scale_height = planes.scale.map_or(0.0, |_| color_scale::height(ui) + 4.0);
+    let scale_height = color_scale::height(ui, &planes);
     let mut room = whole;
     room.max.y -= scale_height;
     let response = ui.interact(room, ui.scope_id().with("hemisphere"), Sense::click_and_drag());
@@ -45,13 +40,8 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         .hover_pos()
         .filter(|_| !response.dragged())
         .and_then(|place| nearest(&dots, place));
-    plane_tip::preview(ui, response.id, hovered, commands);
-    if let Some(index) = hovered {
-        plane_tip::tooltip(&response, &planes, index);
-        if response.clicked() {
-            commands.push(Command::LookAt(planes.facts[index].choice()));
-        }
-    } else if !response.dragged() {
+    plane_tip::interact(ui, &response, &planes, hovered, commands);
+    if hovered.is_none() && !response.dragged() {
         let hint = "Drag turns the hemisphere, a double click turns it back.";
         response.clone().on_hover_text_at_pointer(hint);
     }
@@ -99,16 +89,17 @@ fn chosen_axis(state: &State, planes: &Planes) -> Option<DVec3> {
     planes.facts.get(state.plane_index()?)?.axis
 }
 
-/// How far the hemisphere is turned, in radians: about its upright, then forward.
+/// The rotation of the hemisphere: about its upright, then forward.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Turn {
     yaw_rad: f32,
     pitch_rad: f32,
 }
 
-/// What arrow keys turn by.
+/// The rotation by one press of an arrow key.
 const KEY_STEP_RAD: f32 = 0.175;
 
+/// Returns the rotation after this frame's drag, arrow keys, or double click.
 fn turned(ui: &Ui, response: &Response, radius: f32) -> Turn {
     let id = response.id.with("turn");
     let before: Turn = ui.data(|data| data.get_temp(id)).unwrap_or_default();
@@ -118,19 +109,9 @@ fn turned(ui: &Ui, response: &Response, radius: f32) -> Turn {
         turn.yaw_rad += by.x;
         turn.pitch_rad += by.y;
     }
-    if response.has_focus() {
-        let arrows = EventFilter {
-            horizontal_arrows: true,
-            vertical_arrows: true,
-            ..EventFilter::default()
-        };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
-        let pressed = |key| {
-            ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as f32 * KEY_STEP_RAD
-        };
-        turn.yaw_rad += pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
-        turn.pitch_rad += pressed(Key::ArrowDown) - pressed(Key::ArrowUp);
-    }
+    let [right, down] = plane_tip::arrow_presses(ui, response);
+    turn.yaw_rad += right as f32 * KEY_STEP_RAD;
+    turn.pitch_rad += down as f32 * KEY_STEP_RAD;
     turn.pitch_rad = turn
         .pitch_rad
         .clamp(-std::f32::consts::FRAC_PI_2, std::f32::consts::FRAC_PI_2);
@@ -143,7 +124,7 @@ fn turned(ui: &Ui, response: &Response, radius: f32) -> Turn {
     turn
 }
 
-/// From where the hemisphere is seen. In its frame x points right, y up, and z to whoever looks.
+/// The view of the hemisphere. In its frame x points right, y up, and z to the viewer.
 struct View {
     right: DVec3,
     up: DVec3,
@@ -199,7 +180,7 @@ struct Dot {
     color: Option<Color32>,
 }
 
-/// A dot a plane, those without a score first and the best last, so that it lies on top.
+/// Returns a dot for each plane, those without a score first and the best last, so that it lies on top.
 fn dots(planes: &Planes, view: &View) -> Vec<Dot> {
     let most = (0.34 * view.radius * std::f32::consts::PI / planes.u() as f32).clamp(2.5, 10.0);
     let order = planes.in_rank_order();
@@ -217,14 +198,14 @@ fn dots(planes: &Planes, view: &View) -> Vec<Dot> {
                 Some(_) => (most * share.sqrt()).max(1.5),
                 None => (0.6 * most * share.sqrt()).clamp(1.2, 4.0),
             },
-            color: planes.color(index),
+            color: planes.color(index).map(color32),
         }
     });
     dots.collect()
 }
 
 fn nearest(dots: &[Dot], place: Pos2) -> Option<usize> {
-    // What lies on top comes last.
+    // The topmost dot comes last.
     let reach = |dot: &Dot| place.distance(dot.place) - dot.radius;
     let nearest = dots.iter().rev().min_by(|a, b| reach(a).total_cmp(&reach(b)))?;
     (reach(nearest) < 5.0).then_some(nearest.index)
@@ -236,7 +217,7 @@ fn paint_sphere(ui: &Ui, view: &View) {
     ui.painter()
         .circle_filled(view.middle, view.radius, visuals.faint_bg_color);
     ui.painter().circle_stroke(view.middle, view.radius, line);
-    // Where x, y and z are zero: half of each circle is to be seen.
+    // The circles of x = 0, y = 0 and z = 0: half of each is visible.
     for (a, b) in [(DVec3::X, DVec3::Y), (DVec3::Y, DVec3::Z), (DVec3::Z, DVec3::X)] {
         let (a, b) = (view.seen(a), view.seen(b));
         // Highest where the circle is nearest.
@@ -261,21 +242,13 @@ fn paint_lines(ui: &Ui, state: &State, planes: &Planes, view: &View) {
 }
 
 fn paint_marks(ui: &Ui, state: &State, planes: &Planes, dots: &[Dot]) {
-    let painter = ui.painter();
-    let chosen = state.chosen_plane_index();
-    for dot in dots {
-        let square = Rect::from_center_size(dot.place, egui::Vec2::splat(2.0 * dot.radius + 9.0));
-        if Some(dot.index) == chosen {
-            marks::frame(painter, square, true);
-        } else if Some(dot.index) == state.previewed {
-            marks::frame(painter, square, false);
-        }
-    }
-    for dot in dots {
-        if Some(dot.index) == planes.runner_up() {
-            marks::ring(painter, dot.place, dot.radius + 1.5, false);
-        } else if Some(dot.index) == planes.best() {
-            marks::ring(painter, dot.place, dot.radius + 1.5, true);
-        }
-    }
+    let dot = |index: usize| dots.iter().find(|dot| dot.index == index);
+    let frame = |dot: &Dot| Rect::from_center_size(dot.place, egui::Vec2::splat(2.0 * dot.radius + 9.0));
+    marks::paint_planes(
+        ui.painter(),
+        state,
+        planes,
+        |index| dot(index).map(frame),
+        |index| dot(index).map(|dot| (dot.place, dot.radius + 1.5)),
+    );
 }

@@ -1,11 +1,9 @@
-//! The panels beside the view: a file or folder each.
+//! The panes beside the view: a file or folder each, named as the pane.
 
+pub mod clouds;
 pub mod contributions;
-pub mod files;
 pub mod hemisphere;
 pub mod parameters;
-pub mod point;
 pub mod ranking;
 pub mod score_map;
-pub mod scrub;
-pub mod warnings;
+pub mod why_this_score;

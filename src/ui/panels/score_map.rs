@@ -1,26 +1,20 @@
 //! The map of scores: a cell a candidate plane, g across and h down.
 
-use egui::{
-    Align2, EventFilter, Key, Mesh, Modifiers, Painter, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo,
-    pos2, vec2,
-};
+use egui::{Align2, Mesh, Painter, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use crate::app::{Command, State};
-use crate::ui::widgets::marks::{self, Mark};
-use crate::ui::widgets::planes::Planes;
+use crate::app::inspector::planes::Planes;
+use crate::app::{Command, PlaneChoice, State};
+use crate::ui::widgets::marks::{self, Mark, color32};
 use crate::ui::widgets::{color_scale, notice, plane_tip};
 
-/// Cells narrower than this touch each other.
+/// The narrowest cell with a gap to the next, in logical pixels.
 const LEAST_CELL_WITH_GAP: f32 = 9.0;
 
 /// Draws the panel.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let Some(planes) = Planes::of(ui.ctx(), state) else {
-        notice::nothing_to_show(ui, state, commands);
+    let Some(planes) = notice::planes_or_reason(ui, state, commands) else {
         return;
     };
-    notice::if_stale(ui, state, commands);
-    notice::if_no_plane(ui, &planes.analysis);
     if ui.available_height() > 250.0 {
         marks::key(ui, &marks::entries(state, &planes, Mark::Hatched));
     }
@@ -34,13 +28,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
 
     let hovered = response.hover_pos().and_then(|place| layout.index_at(place));
-    plane_tip::preview(ui, response.id, hovered, commands);
-    if let Some(index) = hovered {
-        plane_tip::tooltip(&response, &planes, index);
-        if response.clicked() {
-            commands.push(Command::LookAt(planes.facts[index].choice()));
-        }
-    }
+    plane_tip::interact(ui, &response, &planes, hovered, commands);
     move_by_keys(ui, &response, state, &planes, commands);
 
     let opacity = notice::opacity(state);
@@ -57,23 +45,9 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     }
 }
 
-/// Arrow keys go from cell to cell while the map has the keyboard.
+/// Moves from cell to cell by the arrow keys while the map has the focus.
 fn move_by_keys(ui: &Ui, response: &Response, state: &State, planes: &Planes, commands: &mut Vec<Command>) {
-    if !response.has_focus() {
-        return;
-    }
-    let arrows = EventFilter {
-        horizontal_arrows: true,
-        vertical_arrows: true,
-        ..EventFilter::default()
-    };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
-    let pressed = |key| {
-        ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key))
-            .cast_signed()
-    };
-    let across = pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
-    let down = pressed(Key::ArrowDown) - pressed(Key::ArrowUp);
+    let [across, down] = plane_tip::arrow_presses(ui, response);
     if across == 0 && down == 0 {
         return;
     }
@@ -81,13 +55,13 @@ fn move_by_keys(ui: &Ui, response: &Response, state: &State, planes: &Planes, co
     let last = planes.u().cast_signed();
     let (g, h) = from.map_or((1, 1), |f| (f.g.cast_signed(), f.h.cast_signed()));
     let step = |from: isize, by: isize| (from + by).clamp(1, last).cast_unsigned();
-    commands.push(Command::LookAt(crate::app::PlaneChoice::At {
+    commands.push(Command::LookAt(PlaneChoice::At {
         g: step(g, across),
         h: step(h, down),
     }));
 }
 
-/// Where everything goes.
+/// The places of the cells, their labels and the color scale.
 struct Layout {
     u: usize,
     cells: Rect,
@@ -100,7 +74,7 @@ struct Layout {
 impl Layout {
     fn new(ui: &Ui, whole: Rect, planes: &Planes) -> Self {
         let line = marks::label_font(ui).size;
-        let scale_height = planes.scale.map_or(0.0, |_| color_scale::height(ui) + 4.0);
+        let scale_height = color_scale::height(ui, planes);
         let cells = Rect::from_min_max(
             whole.min + vec2(2.1 * line, line + 6.0),
             whole.max - vec2(3.9 * line, line + 8.0 + scale_height),
@@ -160,7 +134,7 @@ impl Layout {
         for index in 0..planes.facts.len() {
             let color = planes
                 .color(index)
-                .map_or(missing, |color| color.gamma_multiply(opacity));
+                .map_or(missing, |color| color32(color).gamma_multiply(opacity));
             let mut cell = self.cell(index);
             cell.max -= vec2(gap, gap);
             mesh.add_colored_rect(cell, color);
@@ -213,29 +187,20 @@ impl Layout {
     fn paint_marks(&self, painter: &Painter, state: &State, planes: &Planes) {
         let painter = painter.with_clip_rect(self.cells.expand(6.0).intersect(painter.clip_rect()));
         let radius = (0.3 * self.cell_size()).clamp(4.5, 11.0);
-        let frame = |index: usize, is_chosen: bool| {
+        let exists = |index: usize| index < planes.facts.len();
+        let frame = |index| {
             let cell = self.cell(index);
             let least = vec2(9.0, 9.0).max(cell.size() - vec2(1.0, 1.0));
-            marks::frame(&painter, Rect::from_center_size(cell.center(), least), is_chosen);
+            Rect::from_center_size(cell.center(), least)
         };
-        let exists = |index: &usize| *index < planes.facts.len();
-        let chosen = state.chosen_plane_index().filter(exists);
-        if let Some(index) = state
-            .previewed
-            .filter(exists)
-            .filter(|_| state.previewed != chosen)
-        {
-            frame(index, false);
-        }
-        if let Some(index) = chosen {
-            frame(index, true);
-        }
-        if let Some(index) = planes.runner_up() {
-            marks::ring(&painter, self.cell(index).center(), radius, false);
-        }
-        if let Some(index) = planes.best() {
-            marks::ring(&painter, self.cell(index).center(), radius, true);
-        }
+        let ring = |index| (self.cell(index).center(), radius);
+        marks::paint_planes(
+            &painter,
+            state,
+            planes,
+            |index| exists(index).then(|| frame(index)),
+            |index| exists(index).then(|| ring(index)),
+        );
     }
 
     fn paint_labels(&self, ui: &Ui) {

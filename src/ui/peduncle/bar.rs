@@ -5,8 +5,8 @@ use egui::{Button, DragValue, RichText, Ui};
 use super::tools::hint;
 use crate::app::peduncle::PedunclePath;
 use crate::app::{Command, PeduncleCommand, State, Tool};
+use crate::ui::action::{Act, Action};
 use crate::ui::widgets::controls::{self, warning_color};
-use crate::ui::window::actions::{Act, Action};
 use crate::view::PEDUNCLE_MARK;
 
 /// Shows the bar, where a tool is in hand.

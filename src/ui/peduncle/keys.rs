@@ -1,13 +1,9 @@
 //! What can be done about the peduncle with keys.
 
-use egui::{Key, Modifiers};
+use egui::Key;
 
 use crate::app::{Command, PeduncleCommand, State, Tool};
-use crate::ui::window::actions::{Action, Group};
-
-const NONE: Modifiers = Modifiers::NONE;
-const SHIFT: Modifiers = Modifiers::SHIFT;
-const CTRL: Modifiers = Modifiers::COMMAND;
+use crate::ui::action::{Action, CTRL, Group, NONE, SHIFT};
 
 /// A brush is made so much larger with a key.
 pub(in crate::ui) const BRUSH_STEP: f64 = 1.25;

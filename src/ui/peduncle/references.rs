@@ -18,7 +18,7 @@ const FAR_APART_DEG: f64 = 15.0;
 /// Shows both references with the axis' error against each.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     // What either says is computed.
-    if state.annotating.is_blind {
+    if state.true_axes.is_blind {
         return;
     }
     let Some(walked) = &state.walked else { return };
@@ -106,7 +106,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 /// Shows the errors with and without the peduncle.
 pub(in crate::ui) fn beside(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     // What either says is computed.
-    if state.annotating.is_blind {
+    if state.true_axes.is_blind {
         return;
     }
     let picking = &state.peduncle;

@@ -5,7 +5,7 @@ use egui::{Button, Grid, ProgressBar, RichText, Sense, Ui, vec2};
 use super::{say, stage::other_color};
 use crate::annotate::{Annotation, CloudAgreement, FAR_OFF_DEG, Role};
 use crate::app::true_axes::{Decision, SetReport};
-use crate::app::{AnnotateCommand, Command, State};
+use crate::app::{Command, State, TrueAxesCommand};
 use crate::geometry::angle_between_lines_rad;
 use crate::ui::widgets::controls::{caution, hint, section};
 use crate::ui::widgets::marks::color32;
@@ -15,7 +15,7 @@ const ROWS: usize = 12;
 
 /// Shows it, unless blind mode hides it.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     ui.separator();
     if annotating.is_blind {
         hint(ui, "Everybody else's axes are hidden in blind mode.");
@@ -26,7 +26,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 }
 
 fn cloud(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     if annotating.annotations.is_empty() {
         hint(ui, "Nobody has set an axis of this cloud yet.");
         return;
@@ -38,7 +38,7 @@ fn cloud(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         .on_hover_text(tip)
         .changed()
     {
-        say(commands, AnnotateCommand::ShowAll(shows_all));
+        say(commands, TrueAxesCommand::ShowAll(shows_all));
     }
     let agreement = annotating.agreement.as_ref();
     people(ui, &annotating.annotations, agreement);
@@ -150,27 +150,27 @@ fn decision(ui: &mut Ui, agreement: &CloudAgreement, commands: &mut Vec<Command>
     ui.horizontal_wrapped(|ui| {
         let mean = Button::new("Take the mean");
         if ui.add_enabled(agreement.mean.is_some(), mean).clicked() {
-            say(commands, AnnotateCommand::Decide(Decision::Mean));
+            say(commands, TrueAxesCommand::Decide(Decision::Mean));
         }
         for name in &agreement.annotators {
             if ui.button(format!("Take {name}'s")).clicked() {
-                say(commands, AnnotateCommand::Decide(Decision::Of(name.clone())));
+                say(commands, TrueAxesCommand::Decide(Decision::Of(name.clone())));
             }
         }
         let tip = "Enters edit mode as the adjudicator";
         if ui.button("Set by hand").on_hover_text(tip).clicked() {
-            say(commands, AnnotateCommand::Decide(Decision::ByHand));
+            say(commands, TrueAxesCommand::Decide(Decision::ByHand));
         }
     });
 }
 
 fn set(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     if let Some(share) = annotating.set_progress {
         ui.horizontal(|ui| {
             ui.add(ProgressBar::new(share as f32).desired_width((ui.available_width() - 80.0).max(60.0)));
             if ui.button("Cancel").clicked() {
-                say(commands, AnnotateCommand::CancelSet);
+                say(commands, TrueAxesCommand::CancelSet);
             }
         });
     } else {
@@ -181,7 +181,7 @@ fn set(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         };
         let tip = "Reads the axis files of all open clouds";
         if ui.button(text).on_hover_text(tip).clicked() {
-            say(commands, AnnotateCommand::CompareSet);
+            say(commands, TrueAxesCommand::CompareSet);
         }
     }
     if let Some(report) = &annotating.set {

@@ -5,18 +5,18 @@ use egui::{Id, Key, Modal, RichText, TextEdit};
 use super::say;
 use crate::annotate::Author;
 use crate::app::true_axes::Saving;
-use crate::app::{AnnotateCommand, Command, State};
+use crate::app::{Command, State, TrueAxesCommand};
 use crate::text::sentence;
 
 /// Asks for the annotator's name, once.
 pub(in crate::ui) fn ask_name(ctx: &egui::Context, state: &State, commands: &mut Vec<Command>) {
-    if !state.annotating.asks_name {
+    if !state.true_axes.asks_name {
         return;
     }
     let memory = Id::unique("annotator's name that is being typed");
     let mut typed = ctx
         .data(|data| data.get_temp::<String>(memory))
-        .unwrap_or_else(|| state.annotating.name.clone());
+        .unwrap_or_else(|| state.true_axes.name.clone());
     let modal = Modal::new(Id::unique("annotator's name")).show(ctx, |ui| {
         ui.set_max_width(380.0);
         ui.heading("Who sets the axis?");
@@ -41,9 +41,9 @@ pub(in crate::ui) fn ask_name(ctx: &egui::Context, state: &State, commands: &mut
     });
     let (is_done, is_left) = modal.inner;
     if is_done {
-        say(commands, AnnotateCommand::Name(typed.clone()));
+        say(commands, TrueAxesCommand::Name(typed.clone()));
     } else if is_left || modal.should_close() {
-        say(commands, AnnotateCommand::WithoutName);
+        say(commands, TrueAxesCommand::WithoutName);
     }
     ctx.data_mut(|data| {
         if is_done || is_left {
@@ -68,7 +68,7 @@ pub(in crate::ui) enum Farewell {
 impl Farewell {
     /// What becomes of it; asks where an axis could not be saved.
     pub(in crate::ui) fn of(ctx: &egui::Context, state: &State, commands: &mut Vec<Command>) -> Self {
-        let annotating = &state.annotating;
+        let annotating = &state.true_axes;
         if !annotating.is_unsaved() {
             return Self::Close;
         }
@@ -88,7 +88,7 @@ impl Farewell {
             ui.add_space(8.0);
             ui.horizontal(|ui| {
                 if ui.button("Try again").clicked() {
-                    say(commands, AnnotateCommand::TryAgain);
+                    say(commands, TrueAxesCommand::TryAgain);
                 }
                 let stays = ui.button("Keep the window open").clicked();
                 let text = RichText::new("Close and lose them").color(ui.visuals().error_fg_color);

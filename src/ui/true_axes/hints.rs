@@ -9,7 +9,7 @@ use crate::ui::widgets::marks::color32;
 
 /// Shows it where there is something to say. It takes room of its own, so that it hides no points.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     let lines: Vec<String> = blind(state).into_iter().chain(editing(state)).collect();
     if lines.is_empty() {
         return;
@@ -44,7 +44,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State) {
 }
 
 fn blind(state: &State) -> Option<String> {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     annotating.is_blind.then(|| {
         if annotating.was_seen {
             "Blind, but this cloud was shown with its computed axis before: its axis is not recorded as blind."
@@ -56,7 +56,7 @@ fn blind(state: &State) -> Option<String> {
 }
 
 fn editing(state: &State) -> Vec<String> {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     if !annotating.is_editing {
         return Vec::new();
     }

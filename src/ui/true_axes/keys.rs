@@ -1,49 +1,44 @@
 //! What can be done about true axes with a key.
 
-use egui::{Key, Modifiers};
+use egui::Key;
 
 use crate::annotate::{Confidence, Method, NUDGES_DEG, Pivot};
 use crate::app::true_axes::{Draft, Turn};
-use crate::app::{AnnotateCommand, Command, State};
-use crate::ui::window::actions::{Action, Group};
+use crate::app::{Command, State, TrueAxesCommand};
+use crate::ui::action::{ALT, Action, CTRL, Group, NONE, SHIFT};
 
-const NONE: Modifiers = Modifiers::NONE;
-const CTRL: Modifiers = Modifiers::COMMAND;
-const SHIFT: Modifiers = Modifiers::SHIFT;
-const ALT: Modifiers = Modifiers::ALT;
-
-fn action(title: impl Into<String>, command: AnnotateCommand) -> Action {
-    Action::app(Group::TrueAxis, title, Command::Annotate(command))
+fn action(title: impl Into<String>, command: TrueAxesCommand) -> Action {
+    Action::app(Group::TrueAxis, title, Command::TrueAxes(command))
 }
 
 /// Everything about true axes, as things are now. Most keys count in edit mode alone, before what they
 /// mean otherwise.
 pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     let is_file = matches!(state.source(), Some(crate::app::Source::File(_)));
     let mut all = vec![
         Action::app(
             Group::Edit,
             "Set the true axis by hand",
-            Command::Annotate(AnnotateCommand::Edit(!annotating.is_editing)),
+            Command::TrueAxes(TrueAxesCommand::Edit(!annotating.is_editing)),
         )
         .key(NONE, Key::T)
         .on(annotating.is_editing)
         .when(annotating.is_editing || state.shown().is_some()),
         action(
             "Blind: hide what is computed",
-            AnnotateCommand::Blind(!annotating.is_blind),
+            TrueAxesCommand::Blind(!annotating.is_blind),
         )
         .key(SHIFT, Key::B)
         .on(annotating.is_blind),
         action(
             "Show everybody's axes",
-            AnnotateCommand::ShowAll(!annotating.shows_all),
+            TrueAxesCommand::ShowAll(!annotating.shows_all),
         )
         .key(NONE, Key::W)
         .on(annotating.shows_all)
         .when(!annotating.is_blind),
-        action("Next cloud without my axis", AnnotateCommand::NextWithout)
+        action("Next cloud without my axis", TrueAxesCommand::NextWithout)
             .key(CTRL, Key::PageDown)
             .when(is_file && annotating.author().is_ok() && !annotating.mine.is_empty())
             .repeating(),
@@ -55,11 +50,11 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
 
 /// In edit mode: undo, redo and escape.
 pub(in crate::ui) fn history(state: &State) -> Option<[Action; 3]> {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     if !annotating.is_editing {
         return None;
     }
-    let edit = |title: &str, command| Action::app(Group::Edit, title, Command::Annotate(command));
+    let edit = |title: &str, command| Action::app(Group::Edit, title, Command::TrueAxes(command));
     let escape = if annotating.grabbed.is_some() || annotating.moving.is_some() {
         "Put the axis back"
     } else if annotating.draft == Draft::None {
@@ -68,21 +63,21 @@ pub(in crate::ui) fn history(state: &State) -> Option<[Action; 3]> {
         "Drop the half-set axis"
     };
     Some([
-        edit("Undo the axis edit", AnnotateCommand::Undo)
+        edit("Undo the axis edit", TrueAxesCommand::Undo)
             .key(CTRL, Key::Z)
-            .when(annotating.can_edit() && annotating.reach.undo_steps() > 0)
+            .when(annotating.can_edit() && annotating.history.undo_steps() > 0)
             .repeating(),
-        edit("Redo the axis edit", AnnotateCommand::Redo)
+        edit("Redo the axis edit", TrueAxesCommand::Redo)
             .key(CTRL | SHIFT, Key::Z)
             .key(CTRL, Key::Y)
-            .when(annotating.can_edit() && annotating.reach.redo_steps() > 0)
+            .when(annotating.can_edit() && annotating.history.redo_steps() > 0)
             .repeating(),
-        edit(escape, AnnotateCommand::Escape).key(NONE, Key::Escape),
+        edit(escape, TrueAxesCommand::Escape).key(NONE, Key::Escape),
     ])
 }
 
 fn turning(state: &State) -> Vec<Action> {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     let has_axis = annotating.can_edit() && annotating.set_ends().is_some();
     let ways = [
         ("Turn the axis clockwise", Turn::Picture, 1.0, Key::ArrowRight),
@@ -100,7 +95,7 @@ fn turning(state: &State) -> Vec<Action> {
         for (degrees, modifiers) in NUDGES_DEG.into_iter().zip([ALT, NONE, SHIFT]) {
             let nudge = action(
                 format!("{title} by {degrees}°"),
-                AnnotateCommand::Nudge(turn, sign * degrees),
+                TrueAxesCommand::Nudge(turn, sign * degrees),
             );
             let nudge = nudge.when(has_axis).repeating();
             all.push(if annotating.is_editing {
@@ -114,7 +109,7 @@ fn turning(state: &State) -> Vec<Action> {
 }
 
 fn editing(state: &State) -> Vec<Action> {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     let can = annotating.can_edit();
     let has_axis = can && annotating.set_ends().is_some();
     let is_blind = annotating.is_blind;
@@ -123,23 +118,23 @@ fn editing(state: &State) -> Vec<Action> {
         Pivot::PeduncleBase => Pivot::BlossomEnd,
         Pivot::BlossomEnd => Pivot::Middle,
     };
-    let confidence = |confidence| AnnotateCommand::Confidence(Some(confidence));
+    let confidence = |confidence| TrueAxesCommand::Confidence(Some(confidence));
     let has_said = can && annotating.judgment().is_some();
     let all = [
         (
-            action("Set both ends anew", AnnotateCommand::Anew).when(can),
+            action("Set both ends anew", TrueAxesCommand::Anew).when(can),
             NONE,
             Key::S,
         ),
         (
-            action("Exchange the ends", AnnotateCommand::Flip).when(has_axis),
+            action("Exchange the ends", TrueAxesCommand::Flip).when(has_axis),
             NONE,
             Key::X,
         ),
         (
             action(
                 "Start from the peduncle's axis",
-                AnnotateCommand::Start(Method::FromPeduncle),
+                TrueAxesCommand::Start(Method::FromPeduncle),
             )
             .when(can && !is_blind),
             SHIFT,
@@ -148,7 +143,7 @@ fn editing(state: &State) -> Vec<Action> {
         (
             action(
                 "Start from the computed axis",
-                AnnotateCommand::Start(Method::FromComputed),
+                TrueAxesCommand::Start(Method::FromComputed),
             )
             .when(can && !is_blind),
             SHIFT,
@@ -157,7 +152,7 @@ fn editing(state: &State) -> Vec<Action> {
         (
             action(
                 "Check with a ghost of the cloud",
-                AnnotateCommand::Ghost(annotating.ghost.next()),
+                TrueAxesCommand::Ghost(annotating.ghost.next()),
             )
             .when(can),
             NONE,
@@ -166,14 +161,14 @@ fn editing(state: &State) -> Vec<Action> {
         (
             action(
                 "Hold the middle, the base, the blossom end",
-                AnnotateCommand::Hold(hold),
+                TrueAxesCommand::Hold(hold),
             )
             .when(can),
             NONE,
             Key::H,
         ),
         (
-            action("The axis cannot be told", AnnotateCommand::CannotTell).when(can),
+            action("The axis cannot be told", TrueAxesCommand::CannotTell).when(can),
             NONE,
             Key::U,
         ),
@@ -193,7 +188,7 @@ fn editing(state: &State) -> Vec<Action> {
             Key::Num3,
         ),
         (
-            action("Try to save again", AnnotateCommand::TryAgain).when(annotating.has_failed()),
+            action("Try to save again", TrueAxesCommand::TryAgain).when(annotating.has_failed()),
             NONE,
             Key::F6,
         ),

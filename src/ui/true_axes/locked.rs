@@ -12,7 +12,7 @@ use crate::ui::inspector::paint::ViewCallback;
 
 /// Shows them in edit mode; says whether the cursor is in one that takes clicks.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, is_gpu: bool, commands: &mut Vec<Command>) -> bool {
-    if !state.annotating.is_editing || state.annotating.locked.is_none() {
+    if !state.true_axes.is_editing || state.true_axes.locked.is_none() {
         return false;
     }
     let room = ui.available_rect_before_wrap();
@@ -48,7 +48,7 @@ fn one(
     is_gpu: bool,
     commands: &mut Vec<Command>,
 ) -> bool {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     let (Some(cameras), Some(scene)) = (&annotating.locked, &annotating.small_scene) else {
         return false;
     };

@@ -16,7 +16,7 @@ pub(in crate::ui) use locked::show as locked_views;
 pub use panel::show;
 pub(in crate::ui) use stage::Stage;
 
-use crate::app::{AnnotateCommand, Command};
+use crate::app::{Command, TrueAxesCommand};
 use crate::render::Color;
 
 /// The axis that is being set: a hue apart from the computed axis and the reference.
@@ -32,6 +32,6 @@ const OTHERS: [Color; 6] = [
     [0x5c, 0xf2, 0xc8, 255],
 ];
 
-fn say(commands: &mut Vec<Command>, command: AnnotateCommand) {
-    commands.push(Command::Annotate(command));
+fn say(commands: &mut Vec<Command>, command: TrueAxesCommand) {
+    commands.push(Command::TrueAxes(command));
 }

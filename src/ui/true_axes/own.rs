@@ -5,13 +5,13 @@ use egui::{Button, ComboBox, Response, Role as Spoken, TextEdit, Ui, WidgetInfo}
 use super::say;
 use crate::annotate::{Confidence, Ends, Judgment, Method, NUDGES_DEG, Pivot};
 use crate::app::true_axes::{Ghost, Turn};
-use crate::app::{AnnotateCommand, Command, State};
+use crate::app::{Command, State, TrueAxesCommand};
 use crate::ui::panels::parameters::Triple;
 use crate::ui::widgets::controls::{Number, hint, row};
 
 /// Shows it in edit mode.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     if !annotating.can_edit() {
         return;
     }
@@ -42,19 +42,19 @@ fn edited(response: &Response, ends: Result<Ends, crate::annotate::EndsError>, c
         say(
             commands,
             if response.dragged() {
-                AnnotateCommand::Preview(ends)
+                TrueAxesCommand::Preview(ends)
             } else {
-                AnnotateCommand::SetEnds(ends)
+                TrueAxesCommand::SetEnds(ends)
             },
         );
     }
     if response.drag_stopped() {
-        say(commands, AnnotateCommand::Drop);
+        say(commands, TrueAxesCommand::Drop);
     }
 }
 
 fn numbers(ui: &mut Ui, state: &State, ends: &Ends, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     let unit = annotating.subject.as_ref().map(|subject| subject.unit);
     let in_cm = unit.map_or(1.0, crate::geometry::Unit::in_cm);
     let (mut base, mut blossom) = (ends.peduncle_base(), ends.blossom_end());
@@ -87,7 +87,7 @@ fn numbers(ui: &mut Ui, state: &State, ends: &Ends, commands: &mut Vec<Command>)
 }
 
 fn turning(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     row(ui, "Turn by", "As seen in the large view.", |ui| {
         for (i, degrees) in NUDGES_DEG.into_iter().enumerate() {
             let is_on = annotating.step == i;
@@ -98,7 +98,7 @@ fn turning(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 .on_hover_text(format!("The step of the buttons below. By keys: {keys}"))
                 .clicked()
             {
-                say(commands, AnnotateCommand::Step(i));
+                say(commands, TrueAxesCommand::Step(i));
             }
         }
     });
@@ -121,7 +121,7 @@ fn turning(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                     .on_hover_text(format!("{tip}, by {step}°"))
                     .clicked()
                 {
-                    say(commands, AnnotateCommand::Nudge(turn, sign * step));
+                    say(commands, TrueAxesCommand::Nudge(turn, sign * step));
                 }
             }
         });
@@ -143,7 +143,7 @@ fn turning(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                     for pivot in [Pivot::Middle, Pivot::PeduncleBase, Pivot::BlossomEnd] {
                         let is_on = annotating.pivot == pivot;
                         if ui.selectable_label(is_on, name(pivot)).clicked() {
-                            say(commands, AnnotateCommand::Hold(pivot));
+                            say(commands, TrueAxesCommand::Hold(pivot));
                         }
                     }
                 });
@@ -155,7 +155,7 @@ fn turning(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 }
 
 fn changes(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     let has_axis = annotating.set_ends().is_some();
     ui.horizontal_wrapped(|ui| {
         let mut button = |text: &str, tip: &str, is_enabled: bool, command| {
@@ -169,44 +169,44 @@ fn changes(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             }
         };
         let has_any = annotating.judgment().is_some();
-        button("Set anew", "Both ends by two clicks (S)", has_any, AnnotateCommand::Anew);
-        button("Flip", "Exchange the ends (X)", has_axis, AnnotateCommand::Flip);
+        button("Set anew", "Both ends by two clicks (S)", has_any, TrueAxesCommand::Anew);
+        button("Flip", "Exchange the ends (X)", has_axis, TrueAxesCommand::Flip);
         let is_free = !annotating.is_blind;
         button(
             "From peduncle",
             "Start from the peduncle's axis, § 3.2 (Shift+P). It is recorded, since it draws the hand; not in \
              blind mode.",
             is_free,
-            AnnotateCommand::Start(Method::FromPeduncle),
+            TrueAxesCommand::Start(Method::FromPeduncle),
         );
         button(
             "From computed",
             "Start from the computed axis, Eq. 16 (Shift+A). It is recorded, since it draws the hand; not in \
              blind mode.",
             is_free,
-            AnnotateCommand::Start(Method::FromComputed),
+            TrueAxesCommand::Start(Method::FromComputed),
         );
         button(
             "Cannot be told",
             "This cloud does not show its axis (U)",
             true,
-            AnnotateCommand::CannotTell,
+            TrueAxesCommand::CannotTell,
         );
     });
     ui.horizontal(|ui| {
-        let (undo, redo) = (annotating.reach.undo_steps(), annotating.reach.redo_steps());
+        let (undo, redo) = (annotating.history.undo_steps(), annotating.history.redo_steps());
         for (text, steps, tip, command) in [
             (
                 format!("Undo ({undo})"),
                 undo,
                 "Take back the last edit of this axis (Ctrl+Z)",
-                AnnotateCommand::Undo,
+                TrueAxesCommand::Undo,
             ),
             (
                 format!("Redo ({redo})"),
                 redo,
                 "Do it again (Ctrl+Shift+Z)",
-                AnnotateCommand::Redo,
+                TrueAxesCommand::Redo,
             ),
         ] {
             if ui
@@ -234,10 +234,10 @@ fn ghost(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 "Mirrored in the plane through the axis and the depth camera",
             ),
         ] {
-            let is_on = state.annotating.ghost == ghost;
+            let is_on = state.true_axes.ghost == ghost;
             let button = Button::selectable(is_on, text).frame_when_inactive(true);
             if ui.add(button).on_hover_text(tip).clicked() {
-                say(commands, AnnotateCommand::Ghost(ghost));
+                say(commands, TrueAxesCommand::Ghost(ghost));
             }
         }
     });
@@ -255,12 +255,12 @@ fn said(ui: &mut Ui, state: &State, judgment: &Judgment, commands: &mut Vec<Comm
             if ui.add(button).clicked() {
                 // A second click takes it back.
                 let wanted = (!is_on).then_some(value);
-                say(commands, AnnotateCommand::Confidence(wanted));
+                say(commands, TrueAxesCommand::Confidence(wanted));
             }
         }
     });
     let cloud = state
-        .annotating
+        .true_axes
         .subject
         .as_ref()
         .map(|subject| subject.path.clone());
@@ -277,7 +277,7 @@ fn said(ui: &mut Ui, state: &State, judgment: &Judgment, commands: &mut Vec<Comm
     } else if response.lost_focus() {
         ui.data_mut(|data| data.remove::<String>(memory));
         if typed != judgment.note {
-            say(commands, AnnotateCommand::Note(typed));
+            say(commands, TrueAxesCommand::Note(typed));
         }
     }
     let began = match judgment.method {

@@ -5,7 +5,7 @@ use egui::{Button, ComboBox, ProgressBar, RichText, Role as Spoken, TextEdit, Ui
 use super::{agreement, own, say};
 use crate::annotate::{Author, Role};
 use crate::app::true_axes::Saving;
-use crate::app::{AnnotateCommand, Command, Source, State};
+use crate::app::{Command, Source, State, TrueAxesCommand};
 use crate::text::sentence;
 use crate::ui::widgets::controls::{caution, hint};
 
@@ -21,7 +21,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 }
 
 fn who(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     let memory = ui.make_persistent_id("name");
     let mut typed = ui
         .data(|data| data.get_temp::<String>(memory))
@@ -38,7 +38,7 @@ fn who(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             .on_hover_text("It stands in the axis files and in their names.");
         if response.lost_focus() && Author::annotator(&typed).is_ok() {
             if typed.trim() != annotating.name {
-                say(commands, AnnotateCommand::Name(typed.clone()));
+                say(commands, TrueAxesCommand::Name(typed.clone()));
             }
             ui.data_mut(|data| data.remove::<String>(memory));
         } else if response.has_focus() || typed.trim() != annotating.name {
@@ -55,7 +55,7 @@ fn who(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 for role in [Role::Annotator, Role::Adjudicator] {
                     let is_on = annotating.role == role;
                     if ui.selectable_label(is_on, name(role)).clicked() && !is_on {
-                        say(commands, AnnotateCommand::Role(role));
+                        say(commands, TrueAxesCommand::Role(role));
                     }
                 }
             });
@@ -76,7 +76,7 @@ fn who(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 }
 
 fn mode(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     ui.horizontal(|ui| {
         let text = if annotating.is_editing {
             "Setting the axis"
@@ -87,13 +87,13 @@ fn mode(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         let tip = "Edit mode (T): the left button sets the axis in the view, and nothing else does.";
         let can = annotating.is_editing || state.shown().is_some();
         if ui.add_enabled(can, button).on_hover_text(tip).clicked() {
-            say(commands, AnnotateCommand::Edit(!annotating.is_editing));
+            say(commands, TrueAxesCommand::Edit(!annotating.is_editing));
         }
         let mut is_blind = annotating.is_blind;
         let tip = "Hides the computed plane and axis, the scores, and everybody else's axes (Shift+B). An axis \
                    that was set without having seen them is recorded as blind.";
         if ui.checkbox(&mut is_blind, "Blind").on_hover_text(tip).changed() {
-            say(commands, AnnotateCommand::Blind(is_blind));
+            say(commands, TrueAxesCommand::Blind(is_blind));
         }
     });
     if matches!(state.source(), Some(Source::Bundled(_))) {
@@ -106,7 +106,7 @@ fn mode(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 
 /// Whether the axis is on the disk, and what ought to be known about its files.
 fn files(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     if annotating.is_editing && annotating.subject.is_some() {
         let file = annotating.axis_file.as_ref().and_then(|path| path.file_name());
         let file = file.map(|name| name.to_string_lossy().into_owned());
@@ -161,14 +161,14 @@ fn failure(ui: &mut Ui, text: &str, commands: &mut Vec<Command>) {
     ui.label(RichText::new(text).color(ui.visuals().error_fg_color));
     ui.horizontal(|ui| {
         if ui.button("Try again").on_hover_text("F6").clicked() {
-            say(commands, AnnotateCommand::TryAgain);
+            say(commands, TrueAxesCommand::TryAgain);
         }
         hint(ui, "It is kept until then.");
     });
 }
 
 fn progress(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let annotating = &state.annotating;
+    let annotating = &state.true_axes;
     let Some((set, count)) = annotating.progress().filter(|&(_, count)| count > 1) else {
         return;
     };
@@ -181,7 +181,7 @@ fn progress(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             .on_hover_text("The next cloud without an axis of yours (Ctrl+PageDown)")
             .clicked()
         {
-            say(commands, AnnotateCommand::NextWithout);
+            say(commands, TrueAxesCommand::NextWithout);
         }
     });
 }

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::{OTHERS, OWN, say};
 use crate::annotate::{Annotation, Role};
 use crate::app::true_axes::{Draft, EditView, Grab, Handle};
-use crate::app::{AnnotateCommand, Command, State};
+use crate::app::{Command, State, TrueAxesCommand};
 use crate::render::{Camera, Viewport};
 use crate::ui::widgets::marks::color32;
 
@@ -39,7 +39,7 @@ impl Stage<'_> {
         state: &State,
         commands: &mut Vec<Command>,
     ) -> bool {
-        let annotating = &state.annotating;
+        let annotating = &state.true_axes;
         if !annotating.can_edit() {
             return false;
         }
@@ -60,7 +60,7 @@ impl Stage<'_> {
         if annotating.next_end().is_some() {
             let landing = hover.and_then(landing_at);
             if landing.is_some() && landing != annotating.landing {
-                say(commands, AnnotateCommand::Hover(landing));
+                say(commands, TrueAxesCommand::Hover(landing));
             }
             if hover.is_some() {
                 ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
@@ -70,7 +70,7 @@ impl Stage<'_> {
             }
             let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
             if let Some(landing) = clicked.and_then(|at| landing_at(self.local(at))) {
-                say(commands, AnnotateCommand::Place(landing));
+                say(commands, TrueAxesCommand::Place(landing));
             }
             return hover.is_some();
         }
@@ -79,7 +79,7 @@ impl Stage<'_> {
     }
 
     fn drag(&self, ui: &egui::Ui, response: &egui::Response, state: &State, commands: &mut Vec<Command>) {
-        let annotating = &state.annotating;
+        let annotating = &state.true_axes;
         let mut grab = annotating.grabbed.filter(|grab| grab.view == self.view);
         if response.drag_started_by(PointerButton::Primary)
             && let Some(at) = ui.input(|i| i.pointer.press_origin())
@@ -88,7 +88,7 @@ impl Stage<'_> {
         {
             let at_px = self.local(at);
             let view = self.view;
-            say(commands, AnnotateCommand::Grab { handle, view, at_px });
+            say(commands, TrueAxesCommand::Grab { handle, view, at_px });
             grab = Some(Grab {
                 handle,
                 view,
@@ -103,10 +103,10 @@ impl Stage<'_> {
                 .filter(|_| moved && response.dragged_by(PointerButton::Primary))
             {
                 let place = annotating.held_at(&grab, self.local(at), self.camera, self.viewport);
-                say(commands, AnnotateCommand::Drag(place));
+                say(commands, TrueAxesCommand::Drag(place));
             }
             if response.drag_stopped() {
-                say(commands, AnnotateCommand::Drop);
+                say(commands, TrueAxesCommand::Drop);
             }
             ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
         } else if self.hovered(response, state).is_some() {
@@ -116,7 +116,7 @@ impl Stage<'_> {
 
     /// The handle that a press would grab, or that is held.
     fn hovered(&self, response: &egui::Response, state: &State) -> Option<Handle> {
-        let annotating = &state.annotating;
+        let annotating = &state.true_axes;
         if let Some(grab) = annotating.grabbed {
             return Some(grab.handle);
         }
@@ -126,7 +126,7 @@ impl Stage<'_> {
 
     /// Draws everybody's axes, the own one, and where a click would land.
     pub(in crate::ui) fn paint(&self, ui: &egui::Ui, response: &egui::Response, state: &State) {
-        let annotating = &state.annotating;
+        let annotating = &state.true_axes;
         let painter = ui.painter().with_clip_rect(self.rect);
         if annotating.shows_all {
             self.others(&painter, state);
@@ -212,7 +212,7 @@ impl Stage<'_> {
 
     /// Everybody else's axes, and in the large view whose they are.
     fn others(&self, painter: &Painter, state: &State) {
-        let annotating = &state.annotating;
+        let annotating = &state.true_axes;
         let own = annotating.author().ok().filter(|_| annotating.is_editing);
         let mut names = Vec::new();
         for (i, annotation) in annotating.annotations.iter().enumerate() {

@@ -1,13 +1,13 @@
-//! The scale of scores under drawings of planes.
+//! The color scale of scores under drawings of planes.
 
 use egui::{Align2, Mesh, Pos2, Rect, Ui, pos2};
 
-use super::marks::label_font;
-use super::planes::{ScoreScale, ramp_color};
+use super::marks::{label_font, ramp_color};
+use crate::app::inspector::planes::{Planes, ScoreScale};
 
-/// How much room the scale wants.
-pub fn height(ui: &Ui) -> f32 {
-    2.0 * label_font(ui).size + 20.0
+/// Returns the height of the scale under a drawing of these planes; 0 if none has a score.
+pub fn height(ui: &Ui, planes: &Planes) -> f32 {
+    planes.scale.map_or(0.0, |_| 2.0 * label_font(ui).size + 24.0)
 }
 
 /// Draws the scale, best at the left, with its numbers and unit.

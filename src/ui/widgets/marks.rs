@@ -1,27 +1,28 @@
-//! Marks on candidate planes, the same wherever planes are drawn, and their key.
+//! Marks on candidate planes, the same in every drawing of planes, and their key.
 
 use egui::{
     Color32, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, TextStyle, Ui, Vec2, vec2,
 };
 
-use super::planes::{Planes, ramp_color};
 use crate::app::State;
+use crate::app::inspector::planes::Planes;
 use crate::render::Color;
+use crate::view::value_color;
 
-/// Whatever is marked, and explained in the key.
+/// An entry of the key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     /// The best plane: a ring.
     Best,
     /// The runner-up: a broken ring.
     RunnerUp,
-    /// The plane that is looked at: a frame.
+    /// The chosen plane: a frame.
     Chosen,
     /// A plane without a score, as a cell.
     Hatched,
     /// A plane without a score, as a dot.
     Gray,
-    /// That larger dots have more partners.
+    /// Two dots, the larger with more partners.
     Sizes,
     /// The ray to the camera.
     ViewRay,
@@ -31,18 +32,23 @@ pub enum Mark {
 
 const HALO: Color32 = Color32::from_rgb(0x10, 0x12, 0x14);
 
-/// A color of the renderer's as one of the interface's.
+/// Returns a color of the renderer as one of the interface.
 pub fn color32([r, g, b, a]: Color) -> Color32 {
     Color32::from_rgba_unmultiplied(r, g, b, a)
 }
 
-/// The font of labels in and about drawings.
+/// Returns the color of the program's ramp at `t`, 0 to 1.
+pub fn ramp_color(t: f64) -> Color32 {
+    color32(value_color(t))
+}
+
+/// Returns the font of the labels in and around drawings.
 pub fn label_font(ui: &Ui) -> FontId {
     let body = TextStyle::Body.resolve(ui.style());
     FontId::new((0.86 * body.size).max(10.5), body.family)
 }
 
-/// A ring that stands out on every color: whole for the best plane, broken for the runner-up.
+/// Draws a ring that stands out on every color: whole for the best plane, broken for the runner-up.
 pub fn ring(painter: &Painter, center: Pos2, radius: f32, is_best: bool) {
     if is_best {
         painter.circle_stroke(center, radius, Stroke::new(4.0, HALO));
@@ -64,7 +70,7 @@ pub fn ring(painter: &Painter, center: Pos2, radius: f32, is_best: bool) {
     }
 }
 
-/// A frame about the plane that is looked at, and a thinner one about a previewed one.
+/// Draws a frame around the chosen plane, a thinner one around a previewed plane.
 pub fn frame(painter: &Painter, rect: Rect, is_chosen: bool) {
     let (outer, inner) = if is_chosen { (4.0, 2.0) } else { (3.0, 1.0) };
     let around = StrokeKind::Middle;
@@ -72,7 +78,30 @@ pub fn frame(painter: &Painter, rect: Rect, is_chosen: bool) {
     painter.rect_stroke(rect, 1.0, Stroke::new(inner, Color32::WHITE), around);
 }
 
-/// The diamond that stands for the direction to the camera.
+/// Marks the drawn planes: frames around the previewed and the chosen one, rings around the runner-up and the best.
+/// `frame_of` and `ring_of` give their places by the plane's index.
+pub fn paint_planes(
+    painter: &Painter,
+    state: &State,
+    planes: &Planes,
+    frame_of: impl Fn(usize) -> Option<Rect>,
+    ring_of: impl Fn(usize) -> Option<(Pos2, f32)>,
+) {
+    let chosen = state.chosen_plane_index();
+    let previewed = state.previewed.filter(|_| state.previewed != chosen);
+    for (index, is_chosen) in [(previewed, false), (chosen, true)] {
+        if let Some(rect) = index.and_then(&frame_of) {
+            frame(painter, rect, is_chosen);
+        }
+    }
+    for (index, is_best) in [(planes.runner_up(), false), (planes.best(), true)] {
+        if let Some((center, radius)) = index.and_then(&ring_of) {
+            ring(painter, center, radius, is_best);
+        }
+    }
+}
+
+/// Draws the diamond that stands for the direction to the camera.
 pub fn diamond(painter: &Painter, center: Pos2, radius: f32) {
     let corners = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]
         .map(|(x, y)| center + radius * vec2(x, y))
@@ -81,18 +110,18 @@ pub fn diamond(painter: &Painter, center: Pos2, radius: f32) {
     painter.add(Shape::closed_line(corners, Stroke::new(1.5, Color32::WHITE)));
 }
 
-/// A line that stands out on dark and on light.
+/// Draws a line that stands out on dark and on light.
 pub fn outlined_line(painter: &Painter, ends: [Pos2; 2], color: Color) {
     painter.line_segment(ends, Stroke::new(4.0, HALO));
     painter.line_segment(ends, Stroke::new(2.0, color32(color)));
 }
 
-/// What hatches are drawn with.
+/// Returns the stroke of hatches.
 pub fn hatch_stroke(ui: &Ui) -> Stroke {
     Stroke::new(1.0, ui.visuals().text_color().gamma_multiply(0.5))
 }
 
-/// The marks of planes that there are to explain; those without a score are marked as `without`.
+/// Returns the entries of the key for the marks in a drawing, where planes without a score are marked by `without`.
 pub fn entries(state: &State, planes: &Planes, without: Mark) -> Vec<(Mark, &'static str)> {
     let marks = [
         (planes.best().is_some(), (Mark::Best, "best")),
@@ -107,7 +136,7 @@ pub fn entries(state: &State, planes: &Planes, without: Mark) -> Vec<(Mark, &'st
     shown.map(|(_, entry)| entry).collect()
 }
 
-/// Says what marks mean, in as many lines as they need.
+/// Shows the key of the marks, in as many lines as it needs.
 pub fn key(ui: &mut Ui, entries: &[(Mark, &str)]) {
     let font = label_font(ui);
     let color = ui.visuals().text_color();

@@ -3,7 +3,7 @@
 pub(super) mod color_scale;
 pub(super) mod controls;
 pub(super) mod marks;
+pub(super) mod memo;
 pub(super) mod notice;
 pub(super) mod plane_tip;
-pub(super) mod planes;
 pub(super) mod rows;

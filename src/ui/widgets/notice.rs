@@ -1,15 +1,31 @@
-//! What panels say where there is nothing to show, or nothing new yet.
+//! Notices of panels that have nothing to show, or only older results.
+
+use std::sync::Arc;
 
 use egui::{Align, Layout, RichText, Ui};
 
+use super::plane_tip::planes_of;
+use crate::app::inspector::planes::Planes;
 use crate::app::{Command, Source, State};
 
-/// Says why there is no analysis to show.
+/// Returns the planes to show under a notice where they are old or none wins; without an analysis, shows why there
+/// is none.
+pub fn planes_or_reason(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<Arc<Planes>> {
+    let planes = planes_of(ui.ctx(), state);
+    match &planes {
+        Some(planes) => {
+            if_stale(ui, state, commands);
+            if_no_plane(ui, &planes.analysis);
+        }
+        None => nothing_to_show(ui, state, commands),
+    }
+    planes
+}
+
+/// Shows the reason why there is no analysis.
 pub fn nothing_to_show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let (text, can_resume) = reason(state);
-    let height = ui.available_height();
-    ui.allocate_ui_with_layout(ui.available_size(), Layout::top_down(Align::Center), |ui| {
-        ui.add_space((0.5 * height - 24.0).clamp(4.0, 160.0));
+    in_the_middle(ui, |ui| {
         ui.label(text);
         if can_resume && ui.button("Analyze").clicked() {
             commands.push(Command::Resume);
@@ -17,12 +33,18 @@ pub fn nothing_to_show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) 
     });
 }
 
-/// Stands in for what blind mode hides.
+/// Shows a notice in place of a panel that blind mode hides.
 pub fn hidden(ui: &mut Ui) {
+    in_the_middle(ui, |ui| {
+        ui.label("Hidden in blind mode (Shift+B).");
+    });
+}
+
+fn in_the_middle(ui: &mut Ui, add_contents: impl FnOnce(&mut Ui)) {
     let height = ui.available_height();
     ui.allocate_ui_with_layout(ui.available_size(), Layout::top_down(Align::Center), |ui| {
         ui.add_space((0.5 * height - 24.0).clamp(4.0, 160.0));
-        ui.label("Hidden in blind mode (Shift+B).");
+        add_contents(ui);
     });
 }
 
@@ -43,7 +65,7 @@ fn reason(state: &State) -> (String, bool) {
     }
 }
 
-/// A line above results that are older than the settings.
+/// Shows a line above results that are older than the settings.
 pub fn if_stale(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     if !state.is_stale {
         return;
@@ -62,12 +84,12 @@ pub fn if_stale(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     }
 }
 
-/// How opaque results are drawn: older ones are faded, while texts stay as they are.
+/// Returns the opacity of drawn results: older ones are faded, while texts stay as they are.
 pub fn opacity(state: &State) -> f32 {
     if state.is_stale { 0.45 } else { 1.0 }
 }
 
-/// Why no plane can be the symmetry plane, where that is so.
+/// Shows the reason why no plane can be the symmetry plane, if none can.
 pub fn if_no_plane(ui: &mut Ui, analysis: &crate::method::Analysis) {
     if let Err(none) = &analysis.best {
         ui.label(crate::text::sentence(&none.to_string()));

@@ -1,11 +1,23 @@
-//! What is said of the candidate plane under the cursor, and how hovering and clicking it go.
+//! Candidate planes under the cursor: their facts in words, and the commands of hovering and clicking.
 
-use egui::{Id, Response, Ui};
+use std::sync::Arc;
 
-use super::planes::{PlaneFacts, Planes};
+use egui::{Context, EventFilter, Id, Key, Modifiers, Response, Ui};
+
+use super::memo::{ByAddress, memo};
+use crate::app::inspector::planes::{PlaneFacts, Planes};
 use crate::app::{Command, State};
 
-/// The plane's place among all, in words.
+/// Returns the planes of the newest analysis, computed anew only if it or the reference has changed.
+pub fn planes_of(ctx: &Context, state: &State) -> Option<Arc<Planes>> {
+    let analysis = state.analysis()?;
+    let reference = state.reference().map(|reference| reference.direction);
+    let key = (ByAddress(analysis.clone()), reference);
+    let id = Id::unique("planes of the newest analysis");
+    Some(memo(ctx, id, key, || Planes::new(analysis, reference)))
+}
+
+/// Returns the plane's place among all, in words.
 pub fn standing(planes: &Planes, facts: &PlaneFacts) -> String {
     match facts.rank {
         Some(1) => format!("the best of {}", planes.ranked()),
@@ -15,15 +27,14 @@ pub fn standing(planes: &Planes, facts: &PlaneFacts) -> String {
     }
 }
 
-/// The score, or that there is none.
-pub fn score_words(facts: &PlaneFacts) -> String {
+fn score_words(facts: &PlaneFacts) -> String {
     facts
         .score_cm
         .map_or_else(|| "none".into(), |score| format!("{score:.4} cm"))
 }
 
-/// The axis's error, or why there is none.
-pub fn error_words(facts: &PlaneFacts) -> String {
+/// Returns the axis's error, or the reason why there is none.
+fn error_words(facts: &PlaneFacts) -> String {
     match (facts.axis, facts.error_deg) {
         (_, Some(error)) => format!("{error:.1}°"),
         (None, _) => "no axis: the normal lies along the view ray".into(),
@@ -31,55 +42,47 @@ pub fn error_words(facts: &PlaneFacts) -> String {
     }
 }
 
-/// One line on a plane.
-pub fn line(planes: &Planes, index: usize) -> String {
-    let Some(facts) = planes.facts.get(index) else {
-        return String::new();
-    };
-    let score = match (facts.score_cm, facts.rank) {
-        (Some(_), _) => format!("score {}, {}", score_words(facts), standing(planes, facts)),
-        (None, _) => standing(planes, facts),
-    };
-    let error = match facts.error_deg {
-        Some(error) => format!("axis error {error:.1}°"),
-        None => error_words(facts),
-    };
+fn partner_words(planes: &Planes, facts: &PlaneFacts, verb: &str) -> String {
     format!(
-        "{score} · {} of {} points have a partner ({:.1} %) · {error}",
+        "{} of {}{verb} ({:.1} %)",
         facts.partners,
         planes.points(),
         planes.partner_percent(facts)
     )
 }
 
-/// A plane's facts, a row each.
-pub fn table(ui: &mut Ui, planes: &Planes, index: usize) {
+/// Returns a plane's facts in one line.
+pub fn line(planes: &Planes, index: usize) -> String {
+    let Some(facts) = planes.facts.get(index) else {
+        return String::new();
+    };
+    let mut score = standing(planes, facts);
+    if facts.score_cm.is_some() {
+        score = format!("score {}, {score}", score_words(facts));
+    }
+    let error = match facts.error_deg {
+        Some(error) => format!("axis error {error:.1}°"),
+        None => error_words(facts),
+    };
+    let partners = partner_words(planes, facts, " points have a partner");
+    format!("{score} · {partners} · {error}")
+}
+
+/// Shows a plane's facts, a row each.
+fn table(ui: &mut Ui, planes: &Planes, index: usize) {
     let Some(facts) = planes.facts.get(index) else {
         return;
     };
     ui.strong(format!("Plane g {}, h {}", facts.g, facts.h));
     ui.label(standing(planes, facts));
-    let number = |value: Option<f64>, unit: &str| {
-        value.map_or_else(|| "none".into(), |value| format!("{value:.3}{unit}"))
-    };
+    let mean_distance = facts.mean_distance_cm().map(|mean| format!("{mean:.3} cm"));
+    let mean_angle = facts.mean_angle_deg().map(|mean| format!("{mean:.1}°"));
+    let none = || "none".into();
     let rows = [
         ("Score", score_words(facts)),
-        (
-            "Points with a partner",
-            format!(
-                "{} of {} ({:.1} %)",
-                facts.partners,
-                planes.points(),
-                planes.partner_percent(facts)
-            ),
-        ),
-        ("Mean distance d", number(facts.mean_distance_cm(), " cm")),
-        (
-            "Mean angle ξ",
-            facts
-                .mean_angle_deg()
-                .map_or_else(|| "none".into(), |angle| format!("{angle:.1}°")),
-        ),
+        ("Points with a partner", partner_words(planes, facts, "")),
+        ("Mean distance d", mean_distance.unwrap_or_else(none)),
+        ("Mean angle ξ", mean_angle.unwrap_or_else(none)),
         ("Axis error", error_words(facts)),
     ];
     egui::Grid::new("plane facts").num_columns(2).show(ui, |ui| {
@@ -91,8 +94,17 @@ pub fn table(ui: &mut Ui, planes: &Planes, index: usize) {
     });
 }
 
-/// Shows the facts of the plane under the cursor, next to it.
-pub fn tooltip(response: &Response, planes: &Planes, index: usize) {
+/// Handles the plane at the cursor in a drawing of planes: previews it, shows its facts beside the cursor, and
+/// looks at it on a click.
+pub fn interact(
+    ui: &Ui,
+    response: &Response,
+    planes: &Planes,
+    hovered: Option<usize>,
+    commands: &mut Vec<Command>,
+) {
+    preview(ui, response.id, hovered, commands);
+    let Some(index) = hovered else { return };
     egui::Tooltip::for_enabled(response)
         .at_pointer()
         .gap(14.0)
@@ -100,21 +112,23 @@ pub fn tooltip(response: &Response, planes: &Planes, index: usize) {
             ui.set_max_width(ui.spacing().tooltip_width);
             table(ui, planes, index);
         });
+    if response.clicked() {
+        commands.push(Command::LookAt(planes.facts[index].choice()));
+    }
 }
 
-/// Says why the plane under the cursor has no score.
+/// Shows the reason why the plane under the cursor has no score, if it has none.
 pub fn explain_missing(response: &Response, planes: &Planes, index: usize) {
     if planes.facts.get(index).is_some_and(|f| f.score_cm.is_none()) {
         let least = 100.0 * planes.analysis.params.min_partner_fraction;
         let percent = planes.partner_percent(&planes.facts[index]);
         response.clone().on_hover_text_at_pointer(format!(
-            "Too few partners for a score: {percent:.0} % of the points have one, {least:.0} % are asked for."
+            "Too few partners for a score: {percent:.0} % of the points have one, at least {least:.0} % are needed."
         ));
     }
 }
 
-/// Previews the plane under the cursor, and takes that back once when the cursor has left. `widget` is
-/// whoever is hovered.
+/// Previews the plane under the cursor, and ends the preview once when the cursor has left `widget`.
 pub fn preview(ui: &Ui, widget: Id, hovered: Option<usize>, commands: &mut Vec<Command>) {
     let id = widget.with("previewed plane");
     let before: Option<usize> = ui.data(|data| data.get_temp(id)).flatten();
@@ -124,7 +138,28 @@ pub fn preview(ui: &Ui, widget: Id, hovered: Option<usize>, commands: &mut Vec<C
     }
 }
 
-/// The plane in words for those who do not see it.
+/// Takes the presses of the arrow keys while the widget has the focus: those to the right, and those down.
+pub fn arrow_presses(ui: &Ui, response: &Response) -> [isize; 2] {
+    if !response.has_focus() {
+        return [0, 0];
+    }
+    let arrows = EventFilter {
+        horizontal_arrows: true,
+        vertical_arrows: true,
+        ..EventFilter::default()
+    };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    let pressed = |key| {
+        let count = ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
+        count.cast_signed()
+    };
+    [
+        pressed(Key::ArrowRight) - pressed(Key::ArrowLeft),
+        pressed(Key::ArrowDown) - pressed(Key::ArrowUp),
+    ]
+}
+
+/// Returns the description of a drawing of planes for a screen reader.
 pub fn spoken(state: &State, planes: &Planes) -> String {
     let place = |index: Option<usize>| index.and_then(|i| planes.facts.get(i));
     let best = place(planes.best()).map_or_else(

@@ -7,15 +7,15 @@ use crate::app::command_line;
 use crate::app::many::evaluate_command_line;
 use crate::app::{Command, PeduncleCommand, quoted};
 use crate::fruit::companion_path;
-use crate::ui::panels::scrub::walks_by_rank;
-use crate::ui::window::actions::{Act, Action, Group, WindowAct};
+use crate::ui::action::{Act, Action, Group, WindowAct};
+use crate::ui::inspector::plane_bar::walks_by_rank;
 use crate::ui::window::dialogs;
 use crate::ui::window::palette::Palette;
 use crate::ui::window::save_image::SaveImage;
 
 impl Window {
     pub(in crate::ui) fn keys(&self, ctx: &egui::Context, all: &[Action], acts: &mut Vec<Act>) {
-        let is_asking = self.app.state().annotating.asks_name || self.is_closing;
+        let is_asking = self.app.state().true_axes.asks_name || self.is_closing;
         let is_covered = self.is_help_open || self.is_about_open || self.saving.is_some() || is_asking;
         if is_covered || self.palette.is_some() || ctx.text_edit_focused() {
             return;

@@ -2,7 +2,7 @@
 
 use egui::{Modal, RichText};
 
-use super::actions::{Action, Group};
+use crate::ui::action::{Action, Group};
 
 /// What the mouse does in the view.
 const MOUSE: [(&str, &str); 10] = [

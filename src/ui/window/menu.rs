@@ -2,8 +2,8 @@
 
 use egui::{MenuBar, RichText};
 
-use super::actions::{Act, Action, Group, key_text};
 use crate::app::{Command, State};
+use crate::ui::action::{Act, Action, Group, key_text};
 
 /// Shows the bar; what is chosen goes to `acts`.
 pub fn show(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {

@@ -1,7 +1,7 @@
 //! The window: panels around the view, keys, dialogs, and what is kept for the next time.
 
 mod about;
-pub mod actions;
+pub(super) mod actions;
 mod acts;
 mod dialogs;
 mod help;
@@ -23,15 +23,17 @@ use egui::{CentralPanel, Frame, Panel, ViewportCommand};
 use egui_tiles::Tree;
 
 use super::peduncle;
-use crate::app::many::FolderCommand;
+use crate::app::many::ManyCommand;
 use crate::app::workers::Repaint;
 use crate::app::{App, Command, PeduncleCommand, Session};
 use crate::fruit::companion_path;
+use crate::ui::action::{Act, WindowAct};
 use crate::ui::inspector::paint::Views;
+use crate::ui::pane::Pane;
 use crate::ui::true_axes;
-use crate::ui::window::actions::{Act, WindowAct, actions};
+use crate::ui::window::actions::actions;
 use crate::ui::window::dialogs::Asked;
-use crate::ui::window::layout::{Pane, first_layout, is_wide, layout_from};
+use crate::ui::window::layout::{first_layout, is_wide, layout_from};
 use crate::ui::window::palette::{Answer, Palette};
 use crate::ui::window::panes::Panes;
 use save_image::SaveImage;
@@ -101,7 +103,7 @@ impl Window {
         };
         let layout = start.session.layout.as_deref().and_then(layout_from);
         let (open, current) = (start.session.open.clone(), start.session.current);
-        let folders = start.session.folder.folders().to_vec();
+        let folders = start.session.many.folders().to_vec();
         let plane = start.session.settings.plane;
         let mut app = App::new(start.session, &repaint)?;
         if let Some(problem) = start.problem {
@@ -222,7 +224,7 @@ impl Window {
         peduncle::question(&ctx, self.app.state(), &mut commands);
         true_axes::ask_name(&ctx, self.app.state(), &mut commands);
         self.close(&ctx, &mut commands);
-        let was_editing = self.app.state().annotating.is_editing;
+        let was_editing = self.app.state().true_axes.is_editing;
         for command in commands {
             self.carry_out(&ctx, command);
         }
@@ -232,8 +234,8 @@ impl Window {
                 Act::Window(act) => self.act(&ctx, act),
             }
         }
-        if self.app.state().annotating.is_editing && !was_editing {
-            self.act(&ctx, WindowAct::Show(Pane::TrueAxis));
+        if self.app.state().true_axes.is_editing && !was_editing {
+            self.act(&ctx, WindowAct::Show(Pane::TrueAxes));
         }
     }
 
@@ -291,7 +293,7 @@ impl Window {
                 Asked::Open(paths) => Command::Open(paths),
                 Asked::SaveImage(path, size_px) => Command::SaveImage { path, size_px },
                 Asked::Peduncle(command) => Command::Peduncle(command),
-                Asked::SaveResults(into) => Command::Folder(FolderCommand::SaveResults(into)),
+                Asked::SaveResults(into) => Command::Many(ManyCommand::SaveResults(into)),
                 Asked::Failed(text) => Command::Say { is_error: true, text },
             }));
         }

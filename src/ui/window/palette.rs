@@ -2,7 +2,7 @@
 
 use egui::{Key, Modal, Modifiers, RichText};
 
-use super::actions::{Act, Action};
+use crate::ui::action::{Act, Action};
 
 /// What the palette remembers while it is open.
 #[derive(Debug, Clone, Default)]

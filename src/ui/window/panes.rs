@@ -3,14 +3,13 @@
 use egui::{Frame, Margin, Panel, ScrollArea, WidgetText};
 use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse};
 
-use super::actions::{Act, Action, WindowAct};
-use super::layout::Pane;
-use crate::app::{AnnotateCommand, Command, PeduncleCommand, State};
+use crate::app::{Command, PeduncleCommand, State, TrueAxesCommand};
 use crate::render::Viewport;
-use crate::ui::inspector::{view_bar, view3d};
+use crate::ui::action::{Act, Action, WindowAct};
+use crate::ui::inspector::{plane_bar, view_bar, view3d};
 use crate::ui::many::{self, FolderAnswer};
-use crate::ui::panels::files::{self, FilesAnswer};
-use crate::ui::panels::{contributions, hemisphere, parameters, point, ranking, score_map, scrub};
+use crate::ui::pane::Pane;
+use crate::ui::panels::{clouds, contributions, hemisphere, parameters, ranking, score_map, why_this_score};
 use crate::ui::widgets::notice;
 use crate::ui::{peduncle, true_axes};
 
@@ -77,34 +76,38 @@ impl Panes<'_> {
             view_bar::show(ui, self.state, self.actions, self.acts);
             peduncle::bar(ui, self.state, self.actions, self.acts);
         });
-        if !self.state.annotating.is_blind {
-            Panel::bottom("scrub").show_separator_line(false).show(ui, |ui| {
-                scrub::show(ui, self.state, self.commands);
-            });
+        if !self.state.true_axes.is_blind {
+            Panel::bottom("plane bar")
+                .show_separator_line(false)
+                .show(ui, |ui| {
+                    plane_bar::show(ui, self.state, self.commands);
+                });
         }
         true_axes::hint_bar(ui, self.state);
         let is_in_locked = true_axes::locked_views(ui, self.state, self.is_gpu, self.commands);
         let answer = view3d::show(ui, self.state, self.is_gpu, self.commands);
         *self.viewport = Some(answer.viewport);
-        if self.state.annotating.landing.is_some() && !is_in_locked && !answer.is_hovered {
-            let gone = AnnotateCommand::Hover(None);
-            self.commands.push(Command::Annotate(gone));
+        if self.state.true_axes.landing.is_some() && !is_in_locked && !answer.is_hovered {
+            let gone = TrueAxesCommand::Hover(None);
+            self.commands.push(Command::TrueAxes(gone));
         }
     }
 
     fn panel(&mut self, ui: &mut egui::Ui, pane: Pane) {
         let (state, commands) = (self.state, &mut *self.commands);
-        let is_free = matches!(pane, Pane::View | Pane::Files | Pane::Parameters | Pane::TrueAxis);
-        if state.annotating.is_blind && !is_free {
+        let is_free = matches!(
+            pane,
+            Pane::View | Pane::Clouds | Pane::Parameters | Pane::TrueAxes
+        );
+        if state.true_axes.is_blind && !is_free {
             notice::hidden(ui);
             return;
         }
         match pane {
             Pane::View => {}
-            Pane::Files => {
-                if let Some(FilesAnswer::OpenDialog) = files::show(ui, state, commands) {
-                    self.acts.push(Act::Window(WindowAct::OpenFiles));
-                }
+            Pane::Clouds => {
+                let asked = clouds::show(ui, state, commands);
+                self.acts.extend(asked.map(Act::Window));
             }
             Pane::Parameters => {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -114,9 +117,9 @@ impl Panes<'_> {
             Pane::ScoreMap => score_map::show(ui, state, commands),
             Pane::Hemisphere => hemisphere::show(ui, state, commands),
             Pane::Ranking => ranking::show(ui, state, commands),
-            Pane::Point => {
+            Pane::WhyThisScore => {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                    point::show(ui, state, commands);
+                    why_this_score::show(ui, state, commands);
                 });
             }
             Pane::Contributions => contributions::show(ui, state, commands),
@@ -129,7 +132,7 @@ impl Panes<'_> {
                     }));
                 }
             }
-            Pane::TrueAxis => {
+            Pane::TrueAxes => {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     true_axes::show(ui, state, commands);
                 });

@@ -78,7 +78,7 @@ fn result(ui: &mut egui::Ui, state: &State) {
     let analysis = &walked.analysis;
     let points = analysis.surface.len();
     let used = format!("{points} points used, in {}", walked.fruit.unit.symbol());
-    if state.annotating.is_blind {
+    if state.true_axes.is_blind {
         ui.label(format!("{used} · blind: results are hidden"));
         return;
     }

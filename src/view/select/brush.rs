@@ -1,4 +1,4 @@
-//! A brush: a disc, and what it was dragged over.
+//! A brush: a disc that is dragged along a path.
 
 use std::collections::HashMap;
 
@@ -19,7 +19,7 @@ const CELL_PX: f64 = 16.0;
 const FARTHEST_PX: f64 = 1e5;
 
 impl Brush {
-    /// Along a path; a path of one place is a dab.
+    /// A brush along a path; a path of one place is a dab.
     pub fn new(path: &[DVec2], radius_px: f64) -> Self {
         let limit = DVec2::splat(FARTHEST_PX);
         let mut path: Vec<DVec2> = path
@@ -56,7 +56,7 @@ impl Brush {
         }
     }
 
-    /// Whether a pixel was dragged over.
+    /// Whether the disc covered a pixel.
     pub fn contains(&self, pixel: DVec2) -> bool {
         let Some(pieces) = self.cells.get(&cell(pixel)) else {
             return false;

@@ -1,9 +1,9 @@
-//! A lasso: a closed line, and what it goes around.
+//! A lasso: a closed line and its inside.
 
 use glam::DVec2;
 
-/// A polygon that many pixels are looked up in. What it goes around an even number of times is
-/// outside, as in most programs.
+/// A polygon in which many pixels are looked up. A place that it surrounds an even number of times is outside, as in most
+/// programs.
 #[derive(Debug, Clone)]
 pub struct Lasso {
     low: DVec2,
@@ -12,11 +12,11 @@ pub struct Lasso {
     rows: Vec<Vec<(DVec2, DVec2)>>,
 }
 
-/// Rows that are kept at most; a view has fewer.
+/// The most rows that are kept; a view has fewer.
 const MOST_ROWS: f64 = 20_000.0;
 
 impl Lasso {
-    /// Around the corners, the last of which joins the first. With fewer than three it takes nothing.
+    /// A lasso around the corners, the last of which joins the first. With fewer than three it is empty.
     pub fn new(corners: &[DVec2]) -> Self {
         let corners: Vec<DVec2> = corners.iter().copied().filter(|c| c.is_finite()).collect();
         let low = corners.iter().copied().fold(DVec2::INFINITY, DVec2::min);

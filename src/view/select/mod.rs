@@ -1,4 +1,4 @@
-//! Which points a lasso or a brush takes: regions of the view in pixels, and the points as they show there.
+//! The selection of points by lasso or brush: regions of the view in pixels, and the points' projections.
 
 mod brush;
 mod lasso;
@@ -13,9 +13,9 @@ pub use screen::Screen;
 /// A part of the view, in logical pixels.
 #[derive(Debug, Clone)]
 pub enum Region {
-    /// What a closed line goes around.
+    /// The inside of a closed line.
     Lasso(Lasso),
-    /// What a disc was dragged over.
+    /// The trace of a disc.
     Brush(Brush),
 }
 

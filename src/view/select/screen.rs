@@ -1,4 +1,4 @@
-//! Points as they show in a view: where each lies in it, and whether others hide it.
+//! The projections of points in a view, and whether other points hide them.
 
 use glam::{DVec2, DVec3};
 
@@ -9,20 +9,20 @@ use crate::render::{Camera, Viewport};
 /// All points of a cloud in one view. Made once for a camera, and asked with every move of a brush.
 #[derive(Debug, Clone)]
 pub struct Screen {
-    /// One a point, in logical pixels; not finite for what is behind the camera.
+    /// One per point, in logical pixels; not finite behind the camera.
     pixels: Vec<DVec2>,
     is_hidden: Vec<bool>,
 }
 
-/// Points that are done at a time.
+/// The number of points of one piece of work.
 const PIECE: usize = 1 << 15;
 
 /// A surface may fall away by so many pixels' lengths within a pixel of a cell and still be one surface.
 const SLOPE: f64 = 4.0;
 
 impl Screen {
-    /// Projects all points. Of those within a cell of `disc_px` pixels, the diameter of what a point is
-    /// drawn with, the ones well behind the nearest are hidden.
+    /// Projects all points. Of the points within a cell of `disc_px` pixels, the diameter of a drawn point, those well
+    /// behind the nearest are hidden.
     pub fn new(points: &[DVec3], camera: &Camera, viewport: Viewport, disc_px: f64) -> Self {
         let project = |range: std::ops::Range<usize>| -> Vec<(DVec2, f64)> {
             let one = |&p: &DVec3| {
@@ -56,7 +56,7 @@ impl Screen {
         }
     }
 
-    /// Where a point lies in the view, in logical pixels; `None` behind the camera.
+    /// The projection of a point, in logical pixels; `None` behind the camera.
     pub fn pixel(&self, point: usize) -> Option<DVec2> {
         self.pixels[point].is_finite().then(|| self.pixels[point])
     }

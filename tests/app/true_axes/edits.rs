@@ -5,27 +5,27 @@ use super::*;
 fn two_clicks_make_an_axis_file() {
     let (_folder, paths) = folder(1);
     let mut app = editing(&paths);
-    assert_eq!(app.state().annotating.next_end(), Some(Handle::PeduncleBase));
-    assert_eq!(app.state().annotating.saving, Saving::Nothing);
+    assert_eq!(app.state().true_axes.next_end(), Some(Handle::PeduncleBase));
+    assert_eq!(app.state().true_axes.saving, Saving::Nothing);
     click(&mut app, BASE_PX);
-    assert_eq!(app.state().annotating.next_end(), Some(Handle::BlossomEnd));
+    assert_eq!(app.state().true_axes.next_end(), Some(Handle::BlossomEnd));
     assert!(on_disk(&paths[0], &ada()).is_none(), "half an axis is none");
     click(&mut app, BLOSSOM_PX);
-    assert_eq!(app.state().annotating.next_end(), None);
-    assert_eq!(app.state().annotating.saving, Saving::Saved);
+    assert_eq!(app.state().true_axes.next_end(), None);
+    assert_eq!(app.state().true_axes.saving, Saving::Saved);
 
     let annotation = on_disk(&paths[0], &ada()).expect("a file");
     assert_eq!(annotation.judgment.method, Method::ByHand);
     assert!(!annotation.judgment.blind);
     let ends = annotation.ends().expect("an axis");
-    assert_eq!(Some(*ends), app.state().annotating.set_ends());
+    assert_eq!(Some(*ends), app.state().true_axes.set_ends());
     let state = app.state();
     for (end, pixel) in [(ends.peduncle_base(), BASE_PX), (ends.blossom_end(), BLOSSOM_PX)] {
         let at = state.camera.project(end, state.viewport).expect("before the eye");
         assert!(at.distance(pixel) < 1e-6, "{at} instead of {pixel}");
     }
     // Inside the fruit: both ends are as deep as its middle, which no point of the surface is.
-    let subject = state.annotating.subject.as_ref().expect("a cloud");
+    let subject = state.true_axes.subject.as_ref().expect("a cloud");
     let depth = state.camera.depth_of(subject.middle);
     assert!((state.camera.depth_of(ends.peduncle_base()) - depth).abs() < 1e-9);
     assert!((state.camera.depth_of(ends.blossom_end()) - depth).abs() < 1e-9);
@@ -43,13 +43,13 @@ fn a_nudge_turns_by_as_much_as_it_says() {
     let mut app = editing(&paths);
     let before = set_by_clicks(&mut app);
     for (turn, degrees) in [(Turn::Picture, 0.1), (Turn::Lean, 1.0), (Turn::Picture, -5.0)] {
-        let before = app.state().annotating.set_ends().expect("an axis");
-        annotate(&mut app, AnnotateCommand::Nudge(turn, degrees));
-        let after = app.state().annotating.set_ends().expect("an axis");
+        let before = app.state().true_axes.set_ends().expect("an axis");
+        annotate(&mut app, TrueAxesCommand::Nudge(turn, degrees));
+        let after = app.state().true_axes.set_ends().expect("an axis");
         assert!((after.angle_to_deg(&before) - degrees.abs()).abs() < 1e-9);
         assert!(after.middle().distance(before.middle()) < 1e-9 * after.length());
     }
-    annotate(&mut app, AnnotateCommand::SetEnds(before));
+    annotate(&mut app, TrueAxesCommand::SetEnds(before));
     // Clockwise as it is seen: the upper end goes to the right.
     let at = |app: &App, place| {
         app.state()
@@ -57,21 +57,21 @@ fn a_nudge_turns_by_as_much_as_it_says() {
             .project(place, app.state().viewport)
             .expect("seen")
     };
-    annotate(&mut app, AnnotateCommand::Nudge(Turn::Picture, 5.0));
-    let after = app.state().annotating.set_ends().expect("an axis");
+    annotate(&mut app, TrueAxesCommand::Nudge(Turn::Picture, 5.0));
+    let after = app.state().true_axes.set_ends().expect("an axis");
     assert!(at(&app, after.peduncle_base()).x > at(&app, before.peduncle_base()).x + 5.0);
-    annotate(&mut app, AnnotateCommand::SetEnds(before));
-    annotate(&mut app, AnnotateCommand::Nudge(Turn::Lean, 5.0));
-    let after = app.state().annotating.set_ends().expect("an axis");
+    annotate(&mut app, TrueAxesCommand::SetEnds(before));
+    annotate(&mut app, TrueAxesCommand::Nudge(Turn::Lean, 5.0));
+    let after = app.state().true_axes.set_ends().expect("an axis");
     let depth = |place| app.state().camera.depth_of(place);
     assert!(
         depth(after.peduncle_base()) > depth(before.peduncle_base()),
         "away from the viewer"
     );
     // What is held stays.
-    annotate(&mut app, AnnotateCommand::Hold(Pivot::BlossomEnd));
-    annotate(&mut app, AnnotateCommand::Nudge(Turn::Lean, 5.0));
-    let held = app.state().annotating.set_ends().expect("an axis");
+    annotate(&mut app, TrueAxesCommand::Hold(Pivot::BlossomEnd));
+    annotate(&mut app, TrueAxesCommand::Nudge(Turn::Lean, 5.0));
+    let held = app.state().true_axes.set_ends().expect("an axis");
     assert_eq!(held.blossom_end(), after.blossom_end());
 }
 
@@ -83,17 +83,17 @@ fn ends_are_dragged_in_the_plane_that_faces_the_camera() {
     let state = app.state();
     let near = BASE_PX + DVec2::new(9.0, -8.0);
     assert_eq!(
-        state.annotating.handle_at(near, &state.camera, state.viewport),
+        state.true_axes.handle_at(near, &state.camera, state.viewport),
         Some(Handle::PeduncleBase)
     );
     let far = BASE_PX + DVec2::new(30.0, 0.0);
     assert_eq!(
-        state.annotating.handle_at(far, &state.camera, state.viewport),
+        state.true_axes.handle_at(far, &state.camera, state.viewport),
         None
     );
     annotate(
         &mut app,
-        AnnotateCommand::Grab {
+        TrueAxesCommand::Grab {
             handle: Handle::PeduncleBase,
             view: EditView::Main,
             at_px: near,
@@ -101,20 +101,20 @@ fn ends_are_dragged_in_the_plane_that_faces_the_camera() {
     );
     for step in 1..=10 {
         let state = app.state();
-        let grab = state.annotating.grabbed.expect("held");
+        let grab = state.true_axes.grabbed.expect("held");
         let cursor = near + f64::from(step) * DVec2::new(3.0, 1.0);
         let place = state
-            .annotating
+            .true_axes
             .held_at(&grab, cursor, &state.camera, state.viewport);
-        annotate(&mut app, AnnotateCommand::Drag(place));
+        annotate(&mut app, TrueAxesCommand::Drag(place));
     }
     assert_eq!(
-        app.state().annotating.set_ends(),
+        app.state().true_axes.set_ends(),
         Some(before),
         "not before it is let go"
     );
-    annotate(&mut app, AnnotateCommand::Drop);
-    let after = app.state().annotating.set_ends().expect("an axis");
+    annotate(&mut app, TrueAxesCommand::Drop);
+    let after = app.state().true_axes.set_ends().expect("an axis");
     assert_eq!(after.blossom_end(), before.blossom_end());
     let state = app.state();
     let at = state
@@ -124,34 +124,34 @@ fn ends_are_dragged_in_the_plane_that_faces_the_camera() {
     assert!(at.distance(BASE_PX + DVec2::new(30.0, 10.0)) < 1e-6, "{at}");
     let depth = |place| state.camera.depth_of(place);
     assert!((depth(after.peduncle_base()) - depth(before.peduncle_base())).abs() < 1e-9);
-    assert_eq!(state.annotating.reach.undo_steps(), 2, "one drag is one step");
+    assert_eq!(state.true_axes.history.undo_steps(), 2, "one drag is one step");
     // Escape puts back what is held.
     annotate(
         &mut app,
-        AnnotateCommand::Grab {
+        TrueAxesCommand::Grab {
             handle: Handle::Middle,
             view: EditView::Side,
             at_px: near,
         },
     );
-    annotate(&mut app, AnnotateCommand::Drag(after.middle() + DVec3::X));
-    let moved = app.state().annotating.ends().expect("dragged");
+    annotate(&mut app, TrueAxesCommand::Drag(after.middle() + DVec3::X));
+    let moved = app.state().true_axes.ends().expect("dragged");
     assert!((moved.direction() - after.direction()).length() < 1e-9);
-    annotate(&mut app, AnnotateCommand::Escape);
-    assert_eq!(app.state().annotating.ends(), Some(after));
+    annotate(&mut app, TrueAxesCommand::Escape);
+    assert_eq!(app.state().true_axes.ends(), Some(after));
 }
 
 #[test]
 fn locked_views_show_the_axis_upright_and_end_on() {
     let (_folder, paths) = folder(1);
     let mut app = editing(&paths);
-    let upright = app.state().annotating.locked.expect("locked views in edit mode");
+    let upright = app.state().true_axes.locked.expect("locked views in edit mode");
     assert!(
         (upright[0].up_in_world() - DVec3::NEG_Y).length() < 1e-9,
         "no axis yet"
     );
     let ends = set_by_clicks(&mut app);
-    let cameras = app.state().annotating.locked.expect("locked views");
+    let cameras = app.state().true_axes.locked.expect("locked views");
     let viewport = Viewport::new(200.0, 200.0);
     for camera in &cameras {
         assert_eq!(camera.projection, Projection::Orthographic);
@@ -174,20 +174,20 @@ fn locked_views_show_the_axis_upright_and_end_on() {
     // While an end is dragged the views stay as they are.
     annotate(
         &mut app,
-        AnnotateCommand::Grab {
+        TrueAxesCommand::Grab {
             handle: Handle::BlossomEnd,
             view: EditView::Side,
             at_px: DVec2::ZERO,
         },
     );
-    annotate(&mut app, AnnotateCommand::Drag(ends.blossom_end() + DVec3::X));
-    assert_eq!(app.state().annotating.locked, Some(cameras));
-    annotate(&mut app, AnnotateCommand::Drop);
-    assert_ne!(app.state().annotating.locked, Some(cameras));
-    let small = app.state().annotating.small_scene.as_ref().expect("a scene");
+    annotate(&mut app, TrueAxesCommand::Drag(ends.blossom_end() + DVec3::X));
+    assert_eq!(app.state().true_axes.locked, Some(cameras));
+    annotate(&mut app, TrueAxesCommand::Drop);
+    assert_ne!(app.state().true_axes.locked, Some(cameras));
+    let small = app.state().true_axes.small_scene.as_ref().expect("a scene");
     assert!(small.points[0].positions.len() <= 20_000);
-    annotate(&mut app, AnnotateCommand::Edit(false));
-    assert!(app.state().annotating.locked.is_none() && app.state().annotating.small_scene.is_none());
+    annotate(&mut app, TrueAxesCommand::Edit(false));
+    assert!(app.state().true_axes.locked.is_none() && app.state().true_axes.small_scene.is_none());
 }
 
 #[test]
@@ -195,10 +195,10 @@ fn the_ghost_of_a_true_axis_lies_on_the_cloud() {
     let (_folder, paths) = folder(1);
     let mut app = editing(&paths);
     let before = set_by_clicks(&mut app);
-    assert!(app.state().annotating.ghost_scene.is_none());
-    annotate(&mut app, AnnotateCommand::Ghost(Ghost::Turned));
+    assert!(app.state().true_axes.ghost_scene.is_none());
+    annotate(&mut app, TrueAxesCommand::Ghost(Ghost::Turned));
     let ghost_of = |app: &App| {
-        let scene = app.state().annotating.ghost_scene.clone().expect("a ghost");
+        let scene = app.state().true_axes.ghost_scene.clone().expect("a ghost");
         assert_eq!(scene.points.len(), 2);
         (
             scene.points[0].positions.clone(),
@@ -220,16 +220,16 @@ fn the_ghost_of_a_true_axis_lies_on_the_cloud() {
     let ghost_before = ghost_of(&app).1;
     annotate(
         &mut app,
-        AnnotateCommand::Preview(before.shifted(DVec3::X).expect("an axis")),
+        TrueAxesCommand::Preview(before.shifted(DVec3::X).expect("an axis")),
     );
     assert_ne!(ghost_of(&app).1, ghost_before);
-    annotate(&mut app, AnnotateCommand::Escape);
+    annotate(&mut app, TrueAxesCommand::Escape);
     assert_eq!(ghost_of(&app).1, ghost_before);
-    annotate(&mut app, AnnotateCommand::Ghost(Ghost::Mirrored));
+    annotate(&mut app, TrueAxesCommand::Ghost(Ghost::Mirrored));
     let (cloud, ghost, _) = ghost_of(&app);
     let ray = app
         .state()
-        .annotating
+        .true_axes
         .subject
         .as_ref()
         .expect("a cloud")
@@ -246,15 +246,15 @@ fn escape_leaves_one_thing_at_a_time() {
     let (_folder, paths) = folder(1);
     let mut app = editing(&paths);
     click(&mut app, BASE_PX);
-    annotate(&mut app, AnnotateCommand::Escape);
-    assert_eq!(app.state().annotating.draft, Draft::None);
-    assert!(app.state().annotating.is_editing);
-    annotate(&mut app, AnnotateCommand::Escape);
-    assert!(!app.state().annotating.is_editing);
+    annotate(&mut app, TrueAxesCommand::Escape);
+    assert_eq!(app.state().true_axes.draft, Draft::None);
+    assert!(app.state().true_axes.is_editing);
+    annotate(&mut app, TrueAxesCommand::Escape);
+    assert!(!app.state().true_axes.is_editing);
     // Outside of edit mode nothing sets anything.
-    annotate(&mut app, AnnotateCommand::Place(DVec3::ONE));
-    annotate(&mut app, AnnotateCommand::CannotTell);
-    assert!(app.state().annotating.judgment().is_none());
+    annotate(&mut app, TrueAxesCommand::Place(DVec3::ONE));
+    annotate(&mut app, TrueAxesCommand::CannotTell);
+    assert!(app.state().true_axes.judgment().is_none());
     assert!(on_disk(&paths[0], &ada()).is_none());
 }
 
@@ -263,9 +263,9 @@ fn another_tool_ends_edit_mode() {
     let (_folder, paths) = folder(1);
     let mut app = editing(&paths);
     act(&mut app, Command::Use(Tool::MoveCenter));
-    assert!(!app.state().annotating.is_editing && app.state().tool == Tool::MoveCenter);
-    annotate(&mut app, AnnotateCommand::Edit(true));
-    assert!(app.state().annotating.is_editing && app.state().tool == Tool::Navigate);
+    assert!(!app.state().true_axes.is_editing && app.state().tool == Tool::MoveCenter);
+    annotate(&mut app, TrueAxesCommand::Edit(true));
+    assert!(app.state().true_axes.is_editing && app.state().tool == Tool::Navigate);
 }
 
 #[test]
@@ -274,7 +274,7 @@ fn clicks_land_as_deep_as_the_fruit_s_axis_truly_lies() {
     let mut app = app();
     act(&mut app, Command::Open(paths));
     let state = app.state();
-    let subject = state.annotating.subject.as_ref().expect("a cloud");
+    let subject = state.true_axes.subject.as_ref().expect("a cloud");
     let truth = state
         .references
         .iter()

@@ -10,7 +10,7 @@ use std::time::Duration;
 use crate::helpers::driving::{act, app, asset, settle};
 use axiscope::annotate::{Annotation, Author, Confidence, Ends, Finding, Judgment, Method, Pivot, Role};
 use axiscope::app::true_axes::{Decision, Draft, EditView, Ghost, Handle, Saving, Turn};
-use axiscope::app::{AnnotateCommand, App, Command, Sample, Session, Tool, TruthChoice};
+use axiscope::app::{App, Command, Sample, Session, Tool, TrueAxesCommand, TruthChoice};
 use axiscope::method::AxisSource;
 use axiscope::render::{Projection, Viewport};
 use axiscope::view::{Coloring, Overlay, ViewPreset};
@@ -45,8 +45,8 @@ fn folder(clouds: usize) -> (tempfile::TempDir, Vec<PathBuf>) {
     (folder, paths)
 }
 
-fn annotate(app: &mut App, command: AnnotateCommand) {
-    act(app, Command::Annotate(command));
+fn annotate(app: &mut App, command: TrueAxesCommand) {
+    act(app, Command::TrueAxes(command));
 }
 
 /// The program on these clouds, in edit mode, as Ada.
@@ -54,10 +54,10 @@ fn editing(paths: &[PathBuf]) -> App {
     let mut app = app();
     app.set_view(Viewport::new(900.0, 700.0), 1.0, true);
     act(&mut app, Command::Open(paths.to_vec()));
-    annotate(&mut app, AnnotateCommand::Edit(true));
-    assert!(app.state().annotating.asks_name, "nobody has said a name yet");
-    annotate(&mut app, AnnotateCommand::Name("Ada".into()));
-    assert!(app.state().annotating.can_edit());
+    annotate(&mut app, TrueAxesCommand::Edit(true));
+    assert!(app.state().true_axes.asks_name, "nobody has said a name yet");
+    annotate(&mut app, TrueAxesCommand::Name("Ada".into()));
+    assert!(app.state().true_axes.can_edit());
     app
 }
 
@@ -65,10 +65,10 @@ fn editing(paths: &[PathBuf]) -> App {
 fn click(app: &mut App, pixel: DVec2) -> DVec3 {
     let state = app.state();
     let landing = state
-        .annotating
+        .true_axes
         .landing_at(pixel, &state.camera, state.viewport)
         .expect("it lands");
-    annotate(app, AnnotateCommand::Place(landing));
+    annotate(app, TrueAxesCommand::Place(landing));
     landing
 }
 
@@ -78,7 +78,7 @@ const BLOSSOM_PX: DVec2 = DVec2::new(470.0, 560.0);
 fn set_by_clicks(app: &mut App) -> Ends {
     click(app, BASE_PX);
     click(app, BLOSSOM_PX);
-    app.state().annotating.set_ends().expect("an axis")
+    app.state().true_axes.set_ends().expect("an axis")
 }
 
 fn ada() -> Author {

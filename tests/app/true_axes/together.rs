@@ -5,18 +5,18 @@ use super::*;
 fn starts_are_recorded_for_good_and_refused_in_blind_mode() {
     let (_folder, paths) = folder(1);
     let mut app = editing(&paths);
-    annotate(&mut app, AnnotateCommand::Start(Method::FromComputed));
+    annotate(&mut app, TrueAxesCommand::Start(Method::FromComputed));
     let computed = app
         .state()
         .analysis()
         .and_then(|a| a.axis.clone())
         .expect("an axis");
-    let ends = app.state().annotating.set_ends().expect("an axis");
+    let ends = app.state().true_axes.set_ends().expect("an axis");
     assert!(ends.direction().cross(computed.direction).length() < 1e-9);
-    annotate(&mut app, AnnotateCommand::Nudge(Turn::Lean, 5.0));
-    annotate(&mut app, AnnotateCommand::Confidence(Some(Confidence::HIGH)));
-    annotate(&mut app, AnnotateCommand::Note("dented".into()));
-    annotate(&mut app, AnnotateCommand::Flip);
+    annotate(&mut app, TrueAxesCommand::Nudge(Turn::Lean, 5.0));
+    annotate(&mut app, TrueAxesCommand::Confidence(Some(Confidence::HIGH)));
+    annotate(&mut app, TrueAxesCommand::Note("dented".into()));
+    annotate(&mut app, TrueAxesCommand::Flip);
     let annotation = on_disk(&paths[0], &ada()).expect("a file");
     assert_eq!(
         annotation.judgment.method,
@@ -25,12 +25,12 @@ fn starts_are_recorded_for_good_and_refused_in_blind_mode() {
     );
     assert_eq!(annotation.judgment.confidence, Some(Confidence::HIGH));
     assert_eq!(annotation.judgment.note, "dented");
-    annotate(&mut app, AnnotateCommand::Start(Method::FromPeduncle));
-    let steps = app.state().annotating.reach.undo_steps();
-    annotate(&mut app, AnnotateCommand::Blind(true));
-    annotate(&mut app, AnnotateCommand::Start(Method::FromComputed));
+    annotate(&mut app, TrueAxesCommand::Start(Method::FromPeduncle));
+    let steps = app.state().true_axes.history.undo_steps();
+    annotate(&mut app, TrueAxesCommand::Blind(true));
+    annotate(&mut app, TrueAxesCommand::Start(Method::FromComputed));
     assert_eq!(
-        app.state().annotating.reach.undo_steps(),
+        app.state().true_axes.history.undo_steps(),
         steps,
         "hidden in blind mode"
     );
@@ -38,16 +38,16 @@ fn starts_are_recorded_for_good_and_refused_in_blind_mode() {
         on_disk(&paths[0], &ada()).expect("a file").judgment.method,
         Method::FromPeduncle
     );
-    annotate(&mut app, AnnotateCommand::CannotTell);
+    annotate(&mut app, TrueAxesCommand::CannotTell);
     let annotation = on_disk(&paths[0], &ada()).expect("a file");
     assert_eq!(annotation.judgment.finding, Finding::CannotTell);
     assert_eq!(
-        app.state().annotating.next_end(),
+        app.state().true_axes.next_end(),
         None,
         "a click does not undo that by accident"
     );
-    annotate(&mut app, AnnotateCommand::Anew);
-    assert_eq!(app.state().annotating.next_end(), Some(Handle::PeduncleBase));
+    annotate(&mut app, TrueAxesCommand::Anew);
+    assert_eq!(app.state().true_axes.next_end(), Some(Handle::PeduncleBase));
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn blind_mode_hides_everything_computed() {
     let (_folder, paths) = folder(2);
     let mut app = app();
     app.set_view(Viewport::new(900.0, 700.0), 1.0, true);
-    annotate(&mut app, AnnotateCommand::Blind(true));
+    annotate(&mut app, TrueAxesCommand::Blind(true));
     act(&mut app, Command::Open(paths.clone()));
     let look = app.state().look.clone().expect("drawn");
     assert!(look.axis.is_none() && look.reference.is_none() && look.detail.is_none());
@@ -75,35 +75,34 @@ fn blind_mode_hides_everything_computed() {
         Command::View(ViewPreset::Axis),
         Command::View(ViewPreset::Normal),
         Command::Step(1),
-        Command::Annotate(AnnotateCommand::ShowAll(true)),
+        Command::TrueAxes(TrueAxesCommand::ShowAll(true)),
     ] {
         act(&mut app, command);
     }
     assert_eq!(app.state().camera, camera, "no view gives the axis away");
-    assert!(!app.state().annotating.shows_all);
+    assert!(!app.state().true_axes.shows_all);
 
-    annotate(&mut app, AnnotateCommand::Edit(true));
-    annotate(&mut app, AnnotateCommand::Name("Ada".into()));
+    annotate(&mut app, TrueAxesCommand::Edit(true));
+    annotate(&mut app, TrueAxesCommand::Name("Ada".into()));
     set_by_clicks(&mut app);
     assert!(on_disk(&paths[0], &ada()).expect("a file").judgment.blind);
     // Whoever has once seen what is computed is not blind any more.
-    annotate(&mut app, AnnotateCommand::Blind(false));
+    annotate(&mut app, TrueAxesCommand::Blind(false));
     assert!(app.state().look.as_ref().expect("drawn").axis.is_some());
-    annotate(&mut app, AnnotateCommand::Blind(true));
-    assert!(app.state().annotating.was_seen);
-    annotate(&mut app, AnnotateCommand::Flip);
+    annotate(&mut app, TrueAxesCommand::Blind(true));
+    assert!(app.state().true_axes.was_seen);
+    annotate(&mut app, TrueAxesCommand::Flip);
     assert!(!on_disk(&paths[0], &ada()).expect("a file").judgment.blind);
     // The next cloud was not seen.
     act(&mut app, Command::Go(1));
-    assert!(!app.state().annotating.was_seen && app.state().annotating.can_edit());
+    assert!(!app.state().true_axes.was_seen && app.state().true_axes.can_edit());
     set_by_clicks(&mut app);
     assert!(on_disk(&paths[1], &ada()).expect("a file").judgment.blind);
 }
 
 /// An axis of somebody else, written by the library.
 fn set_as(author: &Author, cloud: &Path, ends: Ends) {
-    let fruit =
-        axiscope::fruit::Fruit::read(cloud, None, &axiscope::fruit::PeduncleChoice::Auto).expect("a cloud");
+    let fruit = axiscope::fruit::Fruit::read(cloud, &axiscope::fruit::Request::default()).expect("a cloud");
     let id = axiscope::annotate::CloudId {
         file: cloud.file_name().expect("a name").to_string_lossy().into(),
         sha256: fruit.file.sha256.clone(),
@@ -131,13 +130,13 @@ fn annotators_are_compared_and_decided_between() {
         );
     }
     let mut app = editing(&paths);
-    let agreement = app.state().annotating.agreement.clone().expect("compared");
+    let agreement = app.state().true_axes.agreement.clone().expect("compared");
     assert_eq!(agreement.pairs.len(), 3);
     assert_eq!(agreement.far_off, ["Cleo"]);
     // Each is a reference under a name of its own.
     let cleo = AxisSource::Annotator("Cleo".into());
     assert!(app.state().references.iter().any(|axis| axis.source == cleo));
-    annotate(&mut app, AnnotateCommand::CompareWith(cleo.clone()));
+    annotate(&mut app, TrueAxesCommand::CompareWith(cleo.clone()));
     assert_eq!(app.state().reference().expect("one").source, cleo);
     assert_eq!(
         app.state()
@@ -151,10 +150,10 @@ fn annotators_are_compared_and_decided_between() {
     act(&mut app, Command::Compare(TruthChoice::Peduncle));
     assert_eq!(app.state().reference().expect("one").source, AxisSource::Peduncle);
 
-    annotate(&mut app, AnnotateCommand::Decide(Decision::Of("Ben".into())));
-    assert_eq!(app.state().annotating.role, Role::Adjudicator);
-    assert_eq!(app.state().annotating.set_ends(), Some(turned(4.0)));
-    annotate(&mut app, AnnotateCommand::Decide(Decision::Mean));
+    annotate(&mut app, TrueAxesCommand::Decide(Decision::Of("Ben".into())));
+    assert_eq!(app.state().true_axes.role, Role::Adjudicator);
+    assert_eq!(app.state().true_axes.set_ends(), Some(turned(4.0)));
+    annotate(&mut app, TrueAxesCommand::Decide(Decision::Mean));
     let adjudicator = Author::adjudicator("Ada").expect("a name");
     let annotation = on_disk(&paths[0], &adjudicator).expect("a file");
     assert_eq!(annotation.role, Role::Adjudicator);
@@ -165,13 +164,13 @@ fn annotators_are_compared_and_decided_between() {
         app.state().references.iter().any(adjudicated),
         "it is a reference at once"
     );
-    assert_eq!(app.state().annotating.reach.undo_steps(), 2);
+    assert_eq!(app.state().true_axes.history.undo_steps(), 2);
     // Leaving edit mode ends the role.
-    annotate(&mut app, AnnotateCommand::Edit(false));
-    assert_eq!(app.state().annotating.role, Role::Annotator);
+    annotate(&mut app, TrueAxesCommand::Edit(false));
+    assert_eq!(app.state().true_axes.role, Role::Annotator);
 
-    annotate(&mut app, AnnotateCommand::CompareSet);
-    let set = app.state().annotating.set.clone().expect("compared");
+    annotate(&mut app, TrueAxesCommand::CompareSet);
+    let set = app.state().true_axes.set.clone().expect("compared");
     assert_eq!(set.agreement.clouds.len(), 3);
     assert_eq!(set.agreement.annotators.len(), 3);
     assert_eq!(set.agreement.clouds[0].largest_deg, agreement.largest_deg);
@@ -181,34 +180,34 @@ fn annotators_are_compared_and_decided_between() {
 fn the_loop_goes_from_cloud_to_cloud() {
     let (_folder, paths) = folder(4);
     let mut app = editing(&paths);
-    assert_eq!(app.state().annotating.progress(), Some((0, 4)));
+    assert_eq!(app.state().true_axes.progress(), Some((0, 4)));
     set_by_clicks(&mut app);
-    assert_eq!(app.state().annotating.progress(), Some((1, 4)));
+    assert_eq!(app.state().true_axes.progress(), Some((1, 4)));
     act(&mut app, Command::Go(1));
-    assert!(app.state().annotating.can_edit(), "edit mode stays");
-    assert!(app.state().annotating.judgment().is_none() && app.state().annotating.draft == Draft::None);
+    assert!(app.state().true_axes.can_edit(), "edit mode stays");
+    assert!(app.state().true_axes.judgment().is_none() && app.state().true_axes.draft == Draft::None);
     click(&mut app, BASE_PX);
-    annotate(&mut app, AnnotateCommand::NextWithout);
+    annotate(&mut app, TrueAxesCommand::NextWithout);
     assert_eq!(app.state().current, Some(2));
     assert_eq!(
-        app.state().annotating.draft,
+        app.state().true_axes.draft,
         Draft::None,
         "half an axis does not follow"
     );
     set_by_clicks(&mut app);
-    annotate(&mut app, AnnotateCommand::NextWithout);
+    annotate(&mut app, TrueAxesCommand::NextWithout);
     assert_eq!(app.state().current, Some(3));
     set_by_clicks(&mut app);
-    annotate(&mut app, AnnotateCommand::NextWithout);
+    annotate(&mut app, TrueAxesCommand::NextWithout);
     assert_eq!(app.state().current, Some(1), "the one that was left out");
-    annotate(&mut app, AnnotateCommand::CannotTell);
-    assert_eq!(app.state().annotating.progress(), Some((4, 4)));
-    annotate(&mut app, AnnotateCommand::NextWithout);
+    annotate(&mut app, TrueAxesCommand::CannotTell);
+    assert_eq!(app.state().true_axes.progress(), Some((4, 4)));
+    annotate(&mut app, TrueAxesCommand::NextWithout);
     assert_eq!(app.state().current, Some(1));
     drop(app);
     let app = editing(&paths);
     assert_eq!(
-        app.state().annotating.progress(),
+        app.state().true_axes.progress(),
         Some((4, 4)),
         "told from the files"
     );
@@ -219,7 +218,7 @@ fn the_table_knows_an_axis_as_soon_as_it_is_set() {
     let (_folder, paths) = folder(1);
     let mut app = editing(&paths);
     let row = |app: &App| {
-        let outcome = app.state().folder.rows[0].outcome.clone().expect("evaluated");
+        let outcome = app.state().many.rows[0].outcome.clone().expect("evaluated");
         outcome.row().clone()
     };
     assert_eq!(row(&app).manual_error_deg, None);
@@ -233,7 +232,7 @@ fn the_table_knows_an_axis_as_soon_as_it_is_set() {
     let error = row(&app).manual_error_deg.expect("measured");
     assert!((error - between).abs() < 1e-6, "{error} {between}");
     assert_eq!(row(&app).annotators, "Ada");
-    annotate(&mut app, AnnotateCommand::Undo);
+    annotate(&mut app, TrueAxesCommand::Undo);
     assert_eq!(row(&app).manual_error_deg, None);
 }
 
@@ -242,10 +241,10 @@ fn one_tool_at_a_time_has_the_left_button() {
     let (_folder, paths) = folder(1);
     let mut app = editing(&paths);
     act(&mut app, Command::Use(Tool::Lasso));
-    assert!(!app.state().annotating.is_editing);
+    assert!(!app.state().true_axes.is_editing);
     assert_eq!(app.state().tool, Tool::Lasso);
-    annotate(&mut app, AnnotateCommand::Edit(true));
-    assert!(app.state().annotating.is_editing);
+    annotate(&mut app, TrueAxesCommand::Edit(true));
+    assert!(app.state().true_axes.is_editing);
     assert_eq!(app.state().tool, Tool::Navigate);
 }
 

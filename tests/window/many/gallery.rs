@@ -2,7 +2,7 @@
 
 use super::{apply, current, press, settle, snapshot, window_on, window_on_peppers};
 use axiscope::app::Command;
-use axiscope::app::many::{FolderCommand, KEPT_PICTURES};
+use axiscope::app::many::{KEPT_PICTURES, ManyCommand};
 use axiscope::evaluate::TruthChoice;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
@@ -12,7 +12,7 @@ fn pictures_hang_worst_first_and_open_their_clouds() {
     let (_dir, mut harness) = window_on_peppers();
     press(&mut harness, Modifiers::COMMAND, Key::Num4);
     snapshot(&mut harness, "gallery");
-    let folder = &harness.state().app().state().folder;
+    let folder = &harness.state().app().state().many;
     let mut worst_first: Vec<usize> = (1..10).collect();
     let error = |&place: &usize| folder.rows[place].error_deg(TruthChoice::Auto).expect("an error");
     worst_first.sort_by(|a, b| error(b).total_cmp(&error(a)));
@@ -53,10 +53,10 @@ fn only_pictures_in_sight_are_drawn_and_few_are_kept() {
     }
     let mut harness = window_on(dir.path(), [900.0, 600.0], 1.0);
     press(&mut harness, Modifiers::COMMAND, Key::Num4);
-    let kept = harness.state().app().state().folder.pictures.len();
+    let kept = harness.state().app().state().many.pictures.len();
     assert!((1..30).contains(&kept), "{kept} are drawn");
     let all: Vec<usize> = (0..231).collect();
-    apply(&mut harness, Command::Folder(FolderCommand::Picture(all)));
-    let kept = harness.state().app().state().folder.pictures.len();
+    apply(&mut harness, Command::Many(ManyCommand::Picture(all)));
+    let kept = harness.state().app().state().many.pictures.len();
     assert!(kept <= KEPT_PICTURES, "{kept} are kept");
 }

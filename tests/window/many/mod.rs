@@ -9,8 +9,9 @@ use std::path::Path;
 
 use crate::helpers::in_window::{Windowed, apply, compare, press, settle, window_of};
 use crate::helpers::peppers::write_peppers;
-use axiscope::app::many::{FolderCommand, Tagged};
+use axiscope::app::many::ManyCommand;
 use axiscope::app::{Command, Session};
+use axiscope::evaluate::Tagged;
 use tempfile::TempDir;
 
 /// A window on a folder of nine peppers and a file that is none, evaluated; two are tagged.
@@ -34,7 +35,7 @@ fn tag(harness: &mut Windowed, place: usize, tags: &str, note: &str) {
         note: note.into(),
         ..Tagged::default().with_tags(tags)
     };
-    apply(harness, Command::Folder(FolderCommand::Tag { place, tagged }));
+    apply(harness, Command::Many(ManyCommand::Tag { place, tagged }));
 }
 
 fn window_on(folder: &Path, size: [f32; 2], pixels_per_point: f32) -> Windowed {

@@ -2,7 +2,7 @@
 
 use super::{press, settle, snapshot, window_on_peppers};
 use axiscope::app::Command;
-use axiscope::app::many::{FolderCommand, SweepWish};
+use axiscope::app::many::{ManyCommand, SweepRanges};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
@@ -11,13 +11,16 @@ fn a_cell_of_the_map_opens_its_setting() {
     let (_dir, mut harness) = window_on_peppers();
     press(&mut harness, Modifiers::COMMAND, Key::Num5);
     snapshot(&mut harness, "sweep_empty");
-    let wish = SweepWish {
+    let ranges = SweepRanges {
         u: [5, 8],
         tau_cm_per_rad: [0.0, 2.0],
         tau_step_cm_per_rad: 0.5,
-        ..SweepWish::default()
+        ..SweepRanges::default()
     };
-    super::apply(&mut harness, Command::Folder(FolderCommand::Wish(Box::new(wish))));
+    super::apply(
+        &mut harness,
+        Command::Many(ManyCommand::SweepRanges(Box::new(ranges))),
+    );
     harness.get_by_label("Sweep 20 settings over 10 clouds").click();
     settle(&mut harness);
     snapshot(&mut harness, "sweep");

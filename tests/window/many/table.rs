@@ -14,13 +14,13 @@ fn the_table_is_sorted_by_clicks_and_walked_by_keys() {
     settle(&mut harness);
     harness.get_by_label("Sort by truth °").click();
     settle(&mut harness);
-    let sort = harness.state().app().state().folder.sort;
+    let sort = harness.state().app().state().many.sort;
     let worst_first = Sort {
         by: Column::TrueError,
         is_descending: true,
     };
     assert_eq!(sort, worst_first);
-    let folder = harness.state().app().state().folder.clone();
+    let folder = harness.state().app().state().many.clone();
     let name = |row: usize| folder.rows[folder.order[row]].name.clone();
     harness.get_by_label_contains(&format!("{},", name(1))).click();
     settle(&mut harness);
@@ -47,14 +47,14 @@ fn the_table_is_searched_and_filtered() {
     settle(&mut harness);
     harness.event(egui::Event::Text("leaf".into()));
     settle(&mut harness);
-    assert_eq!(*harness.state().app().state().folder.order, [3, 7]);
+    assert_eq!(*harness.state().app().state().many.order, [3, 7]);
     harness.get_by_label_contains("2 of 10 shown");
     snapshot(&mut harness, "table_searched");
     harness.get_by_label("Show all").click();
     settle(&mut harness);
     harness.get_by_label("no error").click();
     settle(&mut harness);
-    assert_eq!(*harness.state().app().state().folder.order, [0], "the broken one");
+    assert_eq!(*harness.state().app().state().many.order, [0], "the broken one");
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn tags_are_typed_and_undone() {
         settle(&mut harness);
     }
     let note = |h: &egui_kittest::Harness<'_, axiscope::ui::Window>| {
-        h.state().app().state().folder.rows[3].tagged.note.clone()
+        h.state().app().state().many.rows[3].tagged.note.clone()
     };
     assert_eq!(note(&harness), "Seen from below at noon");
     let file = std::fs::read_to_string(dir.path().join("axiscope-tags.json")).expect("it is kept");

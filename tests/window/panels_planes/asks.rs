@@ -211,7 +211,7 @@ fn a_plane_chosen_elsewhere_comes_into_view_and_a_scroll_by_hand_stays() {
 fn the_bar_steps_plays_and_takes_typed_planes() {
     let mut app = app_with(Sample::Pepper);
     app.apply(at(3, 2));
-    let mut harness = harness(app, scrub::show, vec2(900.0, 90.0), Theme::Dark, 1.0);
+    let mut harness = harness(app, plane_bar::show, vec2(900.0, 90.0), Theme::Dark, 1.0);
     let mut press = |label: &str| {
         harness.get_by_label(label).click();
         harness.run();
@@ -234,7 +234,7 @@ fn the_bar_steps_plays_and_takes_typed_planes() {
 fn a_plane_is_typed_by_its_number_or_by_its_steps() {
     let mut app = app_with(Sample::Pepper);
     app.apply(at(3, 2));
-    let mut harness = harness(app, scrub::show, vec2(900.0, 90.0), Theme::Dark, 1.0);
+    let mut harness = harness(app, plane_bar::show, vec2(900.0, 90.0), Theme::Dark, 1.0);
     for (typed, wanted) in [("9", at(2, 3)), ("g 4, h 1", at(4, 1)), ("5,5", at(5, 5))] {
         harness.get_by_label("Plane by its number").click();
         harness.run();
@@ -248,7 +248,7 @@ fn a_plane_is_typed_by_its_number_or_by_its_steps() {
 
 #[test]
 fn panels_say_why_there_is_nothing_to_show() {
-    let panels: [Panel; 4] = [score_map::show, hemisphere::show, ranking::show, scrub::show];
+    let panels: [Panel; 4] = [score_map::show, hemisphere::show, ranking::show, plane_bar::show];
     for panel in panels {
         let harness = driven(new_app(), panel);
         harness.get_by_label_contains("No cloud is open");
@@ -278,7 +278,7 @@ fn panels_say_why_there_is_nothing_to_show() {
 
 #[test]
 fn results_of_older_settings_are_called_so() {
-    let panels: [Panel; 4] = [score_map::show, hemisphere::show, ranking::show, scrub::show];
+    let panels: [Panel; 4] = [score_map::show, hemisphere::show, ranking::show, plane_bar::show];
     for panel in panels {
         let mut app = app_with(Sample::Pepper);
         assert!(driven_says_nothing_old(&driven(app, panel)));

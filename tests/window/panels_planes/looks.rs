@@ -191,7 +191,7 @@ fn the_ranking_looks_as_before() {
 #[test]
 fn the_bar_looks_as_before() {
     let mut pictures = Pictures::default();
-    let panel = scrub::show;
+    let panel = plane_bar::show;
     pictures.take(
         looked_at(Sample::Pepper, 6),
         panel,

@@ -8,7 +8,8 @@ use std::time::{Duration, Instant};
 
 use axiscope::app::{App, Command, PlaneChoice, Sample, Session, State};
 use axiscope::method::Preset;
-use axiscope::ui::panels::{hemisphere, ranking, score_map, scrub};
+use axiscope::ui::inspector::plane_bar;
+use axiscope::ui::panels::{hemisphere, ranking, score_map};
 use egui::{Key, Rect, Theme, Ui, Vec2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};

@@ -1,4 +1,4 @@
-//! The panels of parameters, of one point, of the contributions, of files and of warnings: how they
+//! The panels of parameters, of one point, of the contributions, and of the open clouds: how they
 //! look, and what they ask for.
 
 mod others;
@@ -8,7 +8,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axiscope::app::{App, Command, Sample, Session};
-use axiscope::ui::panels::{contributions, files, parameters as parameters_panel, point, warnings};
+use axiscope::ui::WindowAct;
+use axiscope::ui::panels::{clouds, contributions, parameters as parameters_panel, why_this_score};
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{Harness, SnapshotOptions};
 
@@ -17,16 +18,15 @@ struct Bench {
     app: App,
     panel: Panel,
     said: Vec<Command>,
-    answer: Option<files::FilesAnswer>,
+    answer: Option<WindowAct>,
 }
 
 #[derive(Clone, Copy)]
 enum Panel {
     Parameters,
-    Point,
+    WhyThisScore,
     Contributions,
-    Files,
-    Warnings,
+    Clouds,
 }
 
 impl Bench {
@@ -78,12 +78,11 @@ fn harness(
                 let (state, mut said) = (bench.app.state(), Vec::new());
                 match bench.panel {
                     Panel::Parameters => parameters_panel::show(ui, state, &mut said),
-                    Panel::Point => point::show(ui, state, &mut said),
+                    Panel::WhyThisScore => why_this_score::show(ui, state, &mut said),
                     Panel::Contributions => contributions::show(ui, state, &mut said),
-                    Panel::Files => {
-                        bench.answer = files::show(ui, state, &mut said).or(bench.answer);
+                    Panel::Clouds => {
+                        bench.answer = clouds::show(ui, state, &mut said).or(bench.answer);
                     }
-                    Panel::Warnings => warnings::show(ui, state, &mut said),
                 }
                 // As the program does it: what was asked for is done after the frame.
                 for command in said {

@@ -1,10 +1,9 @@
-//! The panels of one point, of the contributions, of files and of warnings.
+//! The panels of one point, of the contributions, and of the open clouds.
 
 use std::path::PathBuf;
 
 use axiscope::app::{Command, Sample};
-use axiscope::method::Preset;
-use axiscope::ui::panels::files;
+use axiscope::ui::WindowAct;
 use egui_kittest::SnapshotResults;
 use egui_kittest::kittest::Queryable as _;
 
@@ -18,7 +17,7 @@ fn a_point_is_explained() {
         (egui::Theme::Light, "point_light", true),
         (egui::Theme::Dark, "point_no_partner", false),
     ] {
-        let mut bench = bench(Panel::Point, Some(Sample::Pepper));
+        let mut bench = bench(Panel::WhyThisScore, Some(Sample::Pepper));
         let picked = point_of(&bench, with_partner);
         bench.apply(Command::Pick(Some(picked)));
         let mut harness = harness(bench, [300.0, 600.0], 1.0, theme);
@@ -29,7 +28,7 @@ fn a_point_is_explained() {
 
 #[test]
 fn the_partner_is_gone_to_and_the_pick_cleared() {
-    let mut bench = bench(Panel::Point, Some(Sample::Pepper));
+    let mut bench = bench(Panel::WhyThisScore, Some(Sample::Pepper));
     // Then the shown points and the used ones are counted differently.
     let mut request = bench.app.state().settings.request.clone();
     request.without_peduncle = true;
@@ -142,10 +141,10 @@ fn contributions_are_readable_in_the_light() {
 
 #[test]
 fn an_empty_list_says_what_to_do() {
-    let mut harness = dark(bench(Panel::Files, None), [280.0, 240.0]);
+    let mut harness = dark(bench(Panel::Clouds, None), [280.0, 240.0]);
     harness.snapshot_options("files_empty", &options());
     click(&mut harness, "Open…");
-    assert_eq!(harness.state().answer, Some(files::FilesAnswer::OpenDialog));
+    assert_eq!(harness.state().answer, Some(WindowAct::OpenFiles));
     click(&mut harness, Sample::Ellipsoid.title());
     assert!(
         harness
@@ -153,12 +152,7 @@ fn an_empty_list_says_what_to_do() {
             .said
             .contains(&Command::OpenSample(Sample::Ellipsoid))
     );
-    for panel in [
-        Panel::Parameters,
-        Panel::Point,
-        Panel::Contributions,
-        Panel::Warnings,
-    ] {
+    for panel in [Panel::Parameters, Panel::WhyThisScore, Panel::Contributions] {
         dark(bench(panel, None), [280.0, 700.0]);
     }
 }
@@ -172,7 +166,7 @@ fn a_long_list_is_filtered_and_walked_through() {
     for i in 0..3000 {
         std::fs::write(folder.path().join(format!("fruit_{i:04}.ply")), &text).expect("written");
     }
-    let mut bench = bench(Panel::Files, None);
+    let mut bench = bench(Panel::Clouds, None);
     bench.apply(Command::Open(vec![folder.path().to_path_buf()]));
     bench.apply(Command::Go(1));
     let mut harness = dark(bench, [280.0, 480.0]);
@@ -214,19 +208,6 @@ fn a_long_list_is_filtered_and_walked_through() {
 }
 
 #[test]
-fn warnings_are_listed() {
-    let mut bench = bench(Panel::Warnings, Some(Sample::MissedPepper));
-    bench.apply(Command::UsePreset(Preset::AsPrinted));
-    let warned = bench.app.state().warnings.clone();
-    assert!(!warned.is_empty());
-    let mut harness = dark(bench, [300.0, 200.0]);
-    for warning in &warned {
-        assert!(harness.query_by_label(warning).is_some(), "{warning}");
-    }
-    harness.snapshot_options("warnings", &options());
-}
-
-#[test]
 fn a_cloud_that_cannot_be_analyzed_says_why() {
     let folder = tempfile::tempdir().expect("a folder");
     let path: PathBuf = folder.path().join("three.ply");
@@ -234,26 +215,23 @@ fn a_cloud_that_cannot_be_analyzed_says_why() {
                 property float z\nend_header\n0 0 1\n1 0 1\n0 1 1\n";
     std::fs::write(&path, text).expect("written");
     for panel in [
-        Panel::Warnings,
+        Panel::Clouds,
         Panel::Parameters,
-        Panel::Point,
+        Panel::WhyThisScore,
         Panel::Contributions,
     ] {
         let mut bench = bench(panel, None);
         bench.apply(Command::Open(vec![path.clone()]));
         bench.apply(Command::Pick(Some(1)));
-        let why = bench
-            .app
-            .state()
-            .unanalyzed
-            .clone()
-            .expect("too few points")
-            .1
-            .expect("a reason");
+        let why = bench.app.state().entries[0].problem.clone();
+        let why = why.expect("too few points");
         let harness = dark(bench, [300.0, 700.0]);
         match panel {
-            Panel::Warnings => assert!(harness.query_by_label(&why).is_some()),
-            Panel::Point => assert!(harness.query_by_label("The cloud was not analyzed.").is_some()),
+            Panel::Clouds => {
+                let label = format!("three.ply: {why}");
+                assert!(harness.query_by_label(&label).is_some());
+            }
+            Panel::WhyThisScore => assert!(harness.query_by_label("The cloud was not analyzed.").is_some()),
             Panel::Contributions => {
                 assert!(harness.query_by_label("This cloud was not analyzed.").is_some());
             }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::helpers::driving::asset;
-use crate::helpers::in_window::{Windowed, apply, compare, press, settle, state, window_of};
+use crate::helpers::in_window::{Windowed, apply, compare, compare_left, press, settle, state, window_of};
 use axiscope::app::peduncle::Question;
 use axiscope::app::{Command, PeduncleCommand, Session, Tool};
 use axiscope::fruit::{PeduncleChoice, read_cloud};

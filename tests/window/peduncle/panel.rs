@@ -157,5 +157,5 @@ fn what_does_not_fit_is_told_in_the_panel() {
     harness.get_by_label("Folder of the clouds without their peduncles");
     harness.remove_cursor();
     settle(&mut harness);
-    snapshot(&mut harness, "removed_missing");
+    compare_left(&mut harness, "screenshots/peduncle", "removed_missing");
 }

@@ -66,7 +66,7 @@ fn the_left_button_never_moves_the_camera_and_the_others_never_the_axis() {
         assert_ne!(state(&harness).camera, camera);
         assert_eq!(annotating(&harness).set_ends(), Some(ends));
     }
-    assert_eq!(annotating(&harness).reach.undo_steps(), 1);
+    assert_eq!(annotating(&harness).history.undo_steps(), 1);
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn an_end_is_dragged_in_the_large_view_and_in_a_locked_one() {
         by.normalize().dot(right) > 1.0 - 1e-9,
         "within the locked view's plane"
     );
-    assert_eq!(annotating(&harness).reach.undo_steps(), 3);
+    assert_eq!(annotating(&harness).history.undo_steps(), 3);
     assert_eq!(on_disk(&paths[0]).expect("a file").ends().copied(), Some(moved));
 }
 
@@ -128,7 +128,7 @@ fn arrows_turn_the_axis_in_edit_mode_and_walk_the_planes_outside() {
     }
     assert_eq!(state(&harness).chosen_plane_index(), plane);
     press(&mut harness, Modifiers::COMMAND, Key::Z);
-    assert_eq!(annotating(&harness).reach.redo_steps(), 1);
+    assert_eq!(annotating(&harness).history.redo_steps(), 1);
     press(&mut harness, Modifiers::NONE, Key::T);
     press(&mut harness, Modifiers::NONE, Key::ArrowRight);
     assert_ne!(state(&harness).chosen_plane_index(), plane);
@@ -151,7 +151,7 @@ fn typed_numbers_move_an_end() {
     assert!((after.blossom_end().x - 7.25).abs() < 1e-12, "{after:?}");
     assert_eq!(after.blossom_end().y, before.blossom_end().y);
     assert_eq!(after.peduncle_base(), before.peduncle_base());
-    assert_eq!(annotating(&harness).reach.undo_steps(), 2);
+    assert_eq!(annotating(&harness).history.undo_steps(), 2);
 }
 
 #[test]
@@ -172,7 +172,7 @@ fn buttons_do_what_keys_do() {
         annotation.judgment.confidence,
         axiscope::annotate::Confidence::new(0.5)
     );
-    assert_eq!(annotating(&harness).reach.undo_steps(), 4);
+    assert_eq!(annotating(&harness).history.undo_steps(), 4);
     assert!(annotating(&harness).ghost_scene.is_some());
 }
 
@@ -200,7 +200,7 @@ fn keys_that_edit_mode_takes_are_listed_once() {
         if is_editing {
             press(&mut harness, Modifiers::NONE, Key::T);
         }
-        let all = axiscope::ui::window::actions::actions(state(&harness));
+        let all = axiscope::ui::actions(state(&harness));
         let mut keys: Vec<_> = all
             .iter()
             .flat_map(|action| action.keys.iter().map(|key| (*key, action.title.clone())))
@@ -224,13 +224,13 @@ fn a_number_that_is_dragged_is_one_step() {
     assert!(after.peduncle_base().y > before.peduncle_base().y + 0.5);
     assert_eq!(after.blossom_end(), before.blossom_end());
     assert!(annotating(&harness).moving.is_none());
-    assert_eq!(annotating(&harness).reach.undo_steps(), 2);
+    assert_eq!(annotating(&harness).history.undo_steps(), 2);
     let length = harness.get_by_label("Length of the axis").rect().center();
     drag(&mut harness, PointerButton::Primary, length, vec2(30.0, 0.0));
     let longer = annotating(&harness).set_ends().expect("an axis");
     assert!(longer.length() > after.length() + 0.1);
     assert!(longer.middle().distance(after.middle()) < 1e-9);
-    assert_eq!(annotating(&harness).reach.undo_steps(), 3);
+    assert_eq!(annotating(&harness).history.undo_steps(), 3);
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! How it looks: each picture is committed.
 
 use axiscope::annotate::Pivot;
-use axiscope::app::AnnotateCommand;
+use axiscope::app::TrueAxesCommand;
 use axiscope::app::true_axes::Ghost;
 
 use super::*;
 
-fn annotate(harness: &mut Windowed, command: AnnotateCommand) {
-    apply(harness, Command::Annotate(command));
+fn annotate(harness: &mut Windowed, command: TrueAxesCommand) {
+    apply(harness, Command::TrueAxes(command));
 }
 
 #[test]
@@ -47,9 +47,9 @@ fn the_ghost_checks_it() {
     press(&mut harness, Modifiers::NONE, Key::T);
     annotate(
         &mut harness,
-        AnnotateCommand::Start(axiscope::annotate::Method::FromPeduncle),
+        TrueAxesCommand::Start(axiscope::annotate::Method::FromPeduncle),
     );
-    annotate(&mut harness, AnnotateCommand::Ghost(Ghost::Turned));
+    annotate(&mut harness, TrueAxesCommand::Ghost(Ghost::Turned));
     harness.remove_cursor();
     snapshot(&mut harness, "ghost");
 }
@@ -58,8 +58,8 @@ fn the_ghost_checks_it() {
 fn blind_mode_shows_nothing_computed() {
     let (_folder, paths) = folder(2);
     let mut session = Session::first();
-    session.annotating.name = "Ada".into();
-    session.annotating.is_blind = true;
+    session.true_axes.name = "Ada".into();
+    session.true_axes.is_blind = true;
     let mut harness = window_of(session, &paths, SIZE);
     press(&mut harness, Modifiers::NONE, Key::T);
     set_by_clicks(&mut harness);
@@ -83,8 +83,8 @@ fn everybody_s_axes_are_compared() {
     // Read again with the cloud.
     apply(&mut harness, Command::Go(1));
     apply(&mut harness, Command::Go(-1));
-    annotate(&mut harness, AnnotateCommand::ShowAll(true));
-    annotate(&mut harness, AnnotateCommand::CompareSet);
+    annotate(&mut harness, TrueAxesCommand::ShowAll(true));
+    annotate(&mut harness, TrueAxesCommand::CompareSet);
     harness.remove_cursor();
     snapshot(&mut harness, "agreement");
     // Over the set.

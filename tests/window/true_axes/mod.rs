@@ -11,8 +11,8 @@ use crate::helpers::in_window::{Windowed, apply, compare, press, settle, state};
 use axiscope::annotate::DiskFiles;
 use axiscope::annotate::{Annotation, Author, CloudId, Ends, Judgment, Store};
 use axiscope::app::true_axes::{EditView, Handle};
-use axiscope::app::{Annotating, Command, Session};
-use axiscope::fruit::{Fruit, PeduncleChoice};
+use axiscope::app::{Command, Session, TrueAxesState};
+use axiscope::fruit::{Fruit, Request};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::DVec2;
@@ -35,7 +35,7 @@ fn ada() -> Author {
 /// A window on these clouds, whose annotator has said her name before.
 fn window(paths: &[PathBuf], size: [f32; 2]) -> Windowed {
     let mut session = Session::first();
-    session.annotating.name = "Ada".into();
+    session.true_axes.name = "Ada".into();
     window_of(session, paths, size)
 }
 
@@ -45,8 +45,8 @@ fn window_of(session: Session, paths: &[PathBuf], size: [f32; 2]) -> Windowed {
 
 const SIZE: [f32; 2] = [1360.0, 860.0];
 
-fn annotating(harness: &Windowed) -> &Annotating {
-    &state(harness).annotating
+fn annotating(harness: &Windowed) -> &TrueAxesState {
+    &state(harness).true_axes
 }
 
 /// The large view on the screen.
@@ -95,7 +95,7 @@ fn drag(harness: &mut Windowed, which: PointerButton, from: Pos2, by: Vec2) {
 /// Where a handle shows in the large view.
 fn handle_on_screen(harness: &Windowed, handle: Handle) -> Pos2 {
     let state = state(harness);
-    let ends = state.annotating.ends().expect("an axis");
+    let ends = state.true_axes.ends().expect("an axis");
     let at = state
         .camera
         .project(handle.place(&ends), state.viewport)
@@ -126,7 +126,7 @@ fn on_disk(cloud: &Path) -> Option<Annotation> {
 
 /// An axis of somebody else, beside the cloud.
 fn set_as(name: &str, cloud: &Path, ends: Ends) {
-    let fruit = Fruit::read(cloud, None, &PeduncleChoice::Auto).expect("a cloud");
+    let fruit = Fruit::read(cloud, &Request::default()).expect("a cloud");
     let id = CloudId {
         file: cloud.file_name().expect("a name").to_string_lossy().into(),
         sha256: fruit.file.sha256.clone(),

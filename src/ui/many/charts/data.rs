@@ -1,4 +1,4 @@
-//! What the charts show, made when rows, order or reference change.
+//! The data of the charts, computed when rows, order or reference change.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ pub(in crate::ui) const FIG_8_DEG: f64 = 6.4710;
 pub(in crate::ui) const FIG_12_DEG: f64 = 7.3729;
 pub(in crate::ui) const FIG_13_DEG: f64 = 6.9343;
 
-/// How wide the bins of distances are, in centimeters.
+/// The width of the bins of distances in centimeters.
 pub(in crate::ui) const DISTANCE_BIN_CM: f64 = 5.0;
 
 /// A cloud in a chart.
@@ -18,7 +18,7 @@ pub(in crate::ui) const DISTANCE_BIN_CM: f64 = 5.0;
 pub(in crate::ui) struct Mark {
     pub(in crate::ui) x: f64,
     pub(in crate::ui) y: f64,
-    /// Its place in the list.
+    /// The cloud's place in the list.
     pub(in crate::ui) place: usize,
 }
 
@@ -28,7 +28,7 @@ pub(in crate::ui) struct Data {
     generation: u64,
     /// A bar a cloud, in the order of the table.
     pub(in crate::ui) bars: Vec<Mark>,
-    /// Clouds without an error, at their places among the bars, which have no height.
+    /// Clouds without an error, at their places among the bars.
     pub(in crate::ui) failures: Vec<Mark>,
     pub(in crate::ui) mean_deg: Option<f64>,
     /// Against the distance of the fruit center in centimeters.
@@ -39,16 +39,16 @@ pub(in crate::ui) struct Data {
     pub(in crate::ui) by_lead: Vec<Mark>,
     /// A unit a cloud, stacked by their errors: x is the bin's middle, y the unit's lower edge.
     pub(in crate::ui) histogram: Vec<Mark>,
-    /// How wide its bins are, in degrees.
+    /// The width of the histogram's bins in degrees.
     pub(in crate::ui) bin_deg: f64,
 }
 
 impl Data {
-    /// That of the clouds that the table shows, kept until something changes.
+    /// Returns the data of the clouds in the table, computed anew only after a change.
     pub(in crate::ui) fn of(ui: &egui::Ui, state: &State) -> Arc<Self> {
         let id = egui::Id::unique("charts of clouds");
         let kept: Option<Arc<Self>> = ui.data(|data| data.get_temp(id));
-        if let Some(kept) = kept.filter(|kept| kept.generation == state.folder.generation) {
+        if let Some(kept) = kept.filter(|kept| kept.generation == state.many.generation) {
             return kept;
         }
         let made = Arc::new(Self::new(state));
@@ -57,7 +57,7 @@ impl Data {
     }
 
     fn new(state: &State) -> Self {
-        let folder = &state.folder;
+        let folder = &state.many;
         let mut data = Self {
             generation: folder.generation,
             ..Self::default()
@@ -93,7 +93,7 @@ impl Data {
     }
 }
 
-/// The mean of each bin that has a cloud.
+/// Computes the mean of each bin with a cloud.
 fn means(marks: &[Mark]) -> Vec<[f64; 2]> {
     let mut bins: std::collections::BTreeMap<i64, (f64, usize)> = std::collections::BTreeMap::new();
     for mark in marks {

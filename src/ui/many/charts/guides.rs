@@ -1,4 +1,4 @@
-//! Lines to compare with, and their texts.
+//! Guide lines of the charts, and their texts.
 
 use egui::{Align2, Color32, Ui, pos2, vec2};
 use egui_plot::{HLine, LineStyle, PlotUi};
@@ -6,7 +6,7 @@ use egui_plot::{HLine, LineStyle, PlotUi};
 use super::CURRENT;
 use crate::ui::widgets::controls::small;
 
-/// Lines to compare with, and what is written at them.
+/// Draws guide lines, and collects their texts.
 pub(in crate::ui) struct Guides<'a, 'b> {
     pub(in crate::ui) plot: &'a mut PlotUi<'b>,
     pub(in crate::ui) color: Color32,
@@ -21,7 +21,7 @@ pub(in crate::ui) struct Written {
 }
 
 impl Guides<'_, '_> {
-    /// A dashed line at `y` with its text.
+    /// Adds a dashed line at `y` with a text.
     pub(in crate::ui) fn at(&mut self, y: f64, text: &str, align: Align2) {
         self.line(
             y,
@@ -32,7 +32,7 @@ impl Guides<'_, '_> {
         self.write(y, text, align);
     }
 
-    /// The clouds' own mean, with its text at the right.
+    /// Adds a line at the mean of the clouds, with a text at the right.
     pub(in crate::ui) fn mean(&mut self, y: f64) {
         let text = format!("mean {y:.1}°");
         self.line(y, &text, CURRENT, LineStyle::Solid);
@@ -44,7 +44,7 @@ impl Guides<'_, '_> {
         self.plot.hline(line.allow_hover(false));
     }
 
-    /// Writes at the line at `y`.
+    /// Adds a text at the line at `y`.
     pub(in crate::ui) fn write(&mut self, y: f64, text: &str, align: Align2) {
         self.texts.push(Written {
             y,
@@ -55,7 +55,8 @@ impl Guides<'_, '_> {
 }
 
 impl Written {
-    /// Over everything else, on a ground of its own: bars may lie behind it. It has no part in the bounds.
+    /// Draws the text above the chart on a background of its own, since bars may lie behind it. It does not affect the
+    /// bounds of the plot.
     pub(in crate::ui) fn paint(&self, ui: &Ui, transform: &egui_plot::PlotTransform) {
         let frame = *transform.frame();
         let y = transform.position_from_point_y(self.y);

@@ -12,7 +12,7 @@ use crate::ui::widgets::controls::{small, warning_color};
 use data::{DISTANCE_BIN_CM, Data, FIG_8_DEG, FIG_12_DEG, FIG_13_DEG, Mark};
 use guides::Guides;
 
-/// Which chart is shown.
+/// The charts of the panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Chart {
     #[default]
@@ -78,8 +78,8 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
             ui.selectable_value(&mut chart, choice, choice.title())
                 .on_hover_text(choice.explained());
         }
-        if !state.folder.filter.is_empty() {
-            let (shown, all) = (state.folder.order.len(), state.folder.rows.len());
+        if !state.many.filter.is_empty() {
+            let (shown, all) = (state.many.order.len(), state.many.rows.len());
             ui.label(
                 RichText::new(format!("{shown} of {all} clouds, as the table is filtered")).font(small(ui)),
             );
@@ -101,7 +101,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     Some(FolderAnswer::ShowView)
 }
 
-/// The clouds that have no error, each a link.
+/// Lists the clouds without an error, each as a link.
 fn failures(ui: &mut Ui, state: &State, data: &Data) -> Option<usize> {
     const NAMED: usize = 4;
     let mut chosen = None;
@@ -113,9 +113,9 @@ fn failures(ui: &mut Ui, state: &State, data: &Data) -> Option<usize> {
         };
         ui.label(RichText::new(text).font(small(ui)).color(warning_color(ui)));
         for mark in data.failures.iter().take(NAMED) {
-            let row = &state.folder.rows[mark.place];
+            let row = &state.many.rows[mark.place];
             let why = row
-                .failure(state.folder.against)
+                .failure(state.many.against)
                 .unwrap_or("there is no axis to compare with");
             let link = ui.link(RichText::new(&row.name).font(small(ui)));
             if link.on_hover_text(crate::text::sentence(why)).clicked() {
@@ -129,15 +129,15 @@ fn failures(ui: &mut Ui, state: &State, data: &Data) -> Option<usize> {
     chosen
 }
 
-/// Draws one chart; gives the cloud that was clicked.
+/// Draws one chart; returns the cloud that was clicked.
 fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> {
     let (x, y) = chart.axes();
-    // Another chart, or another set of clouds: what was zoomed into means nothing any more.
+    // For another chart or another set of clouds, the zoomed part is meaningless.
     let salt = (chart.title(), state.entries.len());
     let plot = Plot::new(salt)
         .x_axis_label(x)
         .y_axis_label(y)
-        // So that its name does not stand on the numbers in the first frame.
+        // Without this width, the axis' name covers the numbers in the first frame.
         .y_axis_min_width(46.0)
         .include_y(0.0)
         .allow_scroll(false)
@@ -192,13 +192,10 @@ fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> 
     (response.clicked() || by_key).then_some(mark)
 }
 
-/// Says which cloud is under the cursor.
+/// Shows a tooltip about the cloud under the cursor.
 fn explain(response: &Response, state: &State, place: usize) {
-    let row = &state.folder.rows[place];
-    let off = match (
-        row.error_deg(state.folder.against),
-        row.failure(state.folder.against),
-    ) {
+    let row = &state.many.rows[place];
+    let off = match (row.error_deg(state.many.against), row.failure(state.many.against)) {
         (Some(error), _) => format!(": {error:.1}° off"),
         (None, Some(why)) => format!(": {why}"),
         (None, None) => String::new(),
@@ -253,12 +250,12 @@ fn nearest(marks: &[Mark], transform: &egui_plot::PlotTransform, at: egui::Pos2)
 }
 
 fn clouds(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>, state: &State) {
-    // Many bars have no room for gaps.
+    // Many bars leave no room for gaps.
     let width = if data.bars.len() > 120 { 1.0 } else { 0.8 };
     let bar = |mark: &Mark| {
         let color = if current == Some(mark.place) {
             CURRENT
-        } else if state.folder.rows[mark.place].is_stale {
+        } else if state.many.rows[mark.place].is_stale {
             BAR.gamma_multiply(0.45)
         } else {
             BAR
@@ -281,7 +278,7 @@ fn clouds(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>, stat
     }
 }
 
-/// Clouds without an error, on the ground of the chart.
+/// Marks clouds without an error at the bottom of the chart.
 fn crosses(plot: &mut PlotUi<'_>, data: &Data) {
     let marks: Vec<[f64; 2]> = data.failures.iter().map(|mark| [mark.x, 0.0]).collect();
     let color = if plot.ctx().global_style().visuals.dark_mode {

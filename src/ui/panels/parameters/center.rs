@@ -172,7 +172,7 @@ fn settings(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
     edit.request.params.center = center;
     if let Some(analysis) = state
         .analysis()
-        .filter(|_| !matches!(center, CenterMethod::Given(_)) && !state.annotating.is_blind)
+        .filter(|_| !matches!(center, CenterMethod::Given(_)) && !state.true_axes.is_blind)
     {
         let unit = unit_of(state);
         let place = analysis.center;

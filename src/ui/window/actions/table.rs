@@ -2,13 +2,13 @@
 
 use egui::Key;
 
-use super::{ALT, Action, CTRL, Group, NONE, SHIFT, WindowAct};
 use crate::app::true_axes::overlay_reveals;
 use crate::app::{Command, PeduncleCommand, PlaneChoice, Sample, State, Tool};
 use crate::method::Preset;
 use crate::render::Projection;
+use crate::ui::action::{ALT, Action, CTRL, Group, NONE, SHIFT, WindowAct};
+use crate::ui::pane::Pane;
 use crate::ui::true_axes;
-use crate::ui::window::layout::Pane;
 use crate::view::{Coloring, Overlay, Theme, ViewPreset};
 
 pub(in crate::ui) fn file_actions(state: &State) -> Vec<Action> {
@@ -192,7 +192,7 @@ pub(in crate::ui) fn view_actions(state: &State) -> Vec<Action> {
 }
 
 pub(in crate::ui) fn style_actions(state: &State) -> Vec<Action> {
-    let (style, is_blind) = (&state.style, state.annotating.is_blind);
+    let (style, is_blind) = (&state.style, state.true_axes.is_blind);
     let mut actions = Vec::new();
     let number = [
         Key::Num1,
@@ -258,7 +258,7 @@ pub(in crate::ui) fn style_actions(state: &State) -> Vec<Action> {
 }
 
 /// A coloring's name in menus.
-pub fn coloring_title(coloring: Coloring) -> &'static str {
+fn coloring_title(coloring: Coloring) -> &'static str {
     match coloring {
         Coloring::Rgb => "Colors of the file",
         Coloring::Side => "Side of the plane",
@@ -272,7 +272,7 @@ pub fn coloring_title(coloring: Coloring) -> &'static str {
 }
 
 /// An overlay's name in menus, and its key.
-pub fn overlay_title(overlay: Overlay) -> (&'static str, Option<Key>) {
+fn overlay_title(overlay: Overlay) -> (&'static str, Option<Key>) {
     match overlay {
         Overlay::Plane => ("Candidate plane", Some(Key::P)),
         Overlay::Normal => ("Plane's normal", Some(Key::N)),

@@ -1,4 +1,4 @@
-//! The table of the open clouds: its rows, and which of them are shown in which order.
+//! The rows of the table of open clouds, their order, and the filter.
 
 use std::cmp::Ordering;
 use std::path::PathBuf;
@@ -6,11 +6,10 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::tags::Tagged;
-use crate::evaluate::{Outcome, TruthChoice};
+use crate::evaluate::{Outcome, Tagged, TruthChoice};
 use crate::view::grouped;
 
-/// What the table can be sorted by.
+/// A column of the table, by which it can be sorted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Column {
     /// The order in which the clouds were opened.
@@ -29,16 +28,16 @@ pub enum Column {
     ManualError,
     /// The winner's lead over the runner-up.
     Lead,
-    /// How many warnings there are.
+    /// The number of warnings.
     Warnings,
-    /// Who has set an axis by hand.
+    /// The annotators.
     Annotators,
-    /// What the cloud was tagged with.
+    /// The tags.
     Tags,
 }
 
 impl Column {
-    /// All of them, in their order.
+    /// All columns in order.
     pub const ALL: [Self; 11] = [
         Self::Opened,
         Self::Name,
@@ -53,7 +52,7 @@ impl Column {
         Self::Tags,
     ];
 
-    /// The column of the error against a reference.
+    /// Returns the column of the error against a reference.
     pub fn of_error(choice: TruthChoice) -> Option<Self> {
         match choice {
             TruthChoice::Auto => None,
@@ -65,12 +64,12 @@ impl Column {
     }
 }
 
-/// The order that was asked for.
+/// The order of the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sort {
     /// The column.
     pub by: Column,
-    /// Whether what is large comes first.
+    /// Whether large values come first.
     pub is_descending: bool,
 }
 
@@ -83,45 +82,45 @@ impl Default for Sort {
     }
 }
 
-/// Which clouds are shown: those that fulfill all that is asked.
+/// The conditions that a cloud must meet to be shown.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Filter {
-    /// A part of the name, the tags or the note, in whichever case.
+    /// A part of the name, the tags or the note, in upper or lower case.
     pub search: String,
-    /// Only those without an error against the chosen reference.
+    /// Only clouds without an error against the chosen reference.
     pub only_failed: bool,
-    /// Only those that nobody has annotated.
+    /// Only clouds that nobody has annotated.
     pub only_unannotated: bool,
-    /// Only those that are warned of.
+    /// Only clouds with warnings.
     pub only_warned: bool,
-    /// Only those whose error is larger, in degrees.
+    /// Only clouds with a larger error, in degrees.
     pub above_deg: Option<f64>,
-    /// Only those with this tag.
+    /// Only clouds with this tag.
     pub tag: Option<String>,
 }
 
 impl Filter {
-    /// Whether everything is shown.
+    /// Returns whether every cloud is shown.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 }
 
-/// One open cloud.
+/// The row of one open cloud.
 #[derive(Debug, Clone)]
 pub struct TableRow {
-    /// Its file's name.
+    /// The file's name.
     pub name: String,
-    /// Its file; `None` for a sample, which has none.
+    /// The file; `None` for a bundled sample.
     pub path: Option<PathBuf>,
-    /// What came of it, once that is known.
+    /// The result, once it is known.
     pub outcome: Option<Arc<Outcome>>,
-    /// Whether that is of other parameters than those in force.
+    /// Whether the result belongs to other parameters than the current ones.
     pub is_stale: bool,
     /// Tags and note.
     pub tagged: Tagged,
-    /// The cells' texts, in the order of [`Column::ALL`]: made when something changes, not in each frame.
+    /// The texts of the cells in the order of [`Column::ALL`], made when a value changes instead of in each frame.
     pub cells: Arc<[String; 11]>,
 }
 
@@ -139,7 +138,7 @@ impl TableRow {
         row
     }
 
-    /// Makes the texts anew.
+    /// Updates the texts of the cells.
     pub(super) fn write_cells(&mut self, place: usize) {
         let degrees = |choice| match &self.outcome {
             None => String::new(),
@@ -170,7 +169,7 @@ impl TableRow {
         self.cells = Arc::new(Column::ALL.map(text));
     }
 
-    /// How many warnings there are; why a cloud could not be used counts as one.
+    /// Returns the number of warnings, where the failure of an unusable cloud counts as one.
     pub fn warning_count(&self) -> usize {
         let Some(outcome) = &self.outcome else { return 0 };
         let row = outcome.row();
@@ -179,24 +178,24 @@ impl TableRow {
         sentences + usize::from(row.sha256.is_none())
     }
 
-    /// Why there is no error against the reference, as a sentence without its end.
+    /// Returns the reason, as a clause, why there is no error against the reference.
     pub fn failure(&self, choice: TruthChoice) -> Option<&str> {
         self.outcome.as_ref()?.failure(choice)
     }
 
-    /// The error against the reference in degrees.
+    /// Returns the error against the reference in degrees.
     pub fn error_deg(&self, choice: TruthChoice) -> Option<f64> {
         self.outcome.as_ref()?.error_deg(choice)
     }
 
-    /// The distance of the fruit center from the origin, where the depth camera is, in centimeters.
+    /// Returns the distance of the fruit center from the origin, the place of the depth camera, in centimeters.
     pub fn distance_cm(&self) -> Option<f64> {
         let row = self.outcome.as_ref()?.row();
         let [x, y, z] = row.center?;
         Some((x * x + y * y + z * z).sqrt() * row.unit?.in_cm())
     }
 
-    /// How much the runner-up's score is higher, in percent of the best.
+    /// Returns the difference between the runner-up's score and the best, in percent of the best.
     pub fn lead_percent(&self) -> Option<f64> {
         Some(100.0 * self.outcome.as_ref()?.row().lead?)
     }
@@ -225,8 +224,8 @@ impl TableRow {
     }
 }
 
-/// The places of the rows that are shown, in their order. Rows without the value come last whichever way;
-/// rows that are alike stay in the order of opening.
+/// Returns the places of the shown rows in their order. Rows without the value come last in both directions; equal rows
+/// stay in the order of opening.
 pub fn ordered(rows: &[TableRow], sort: Sort, filter: &Filter, choice: TruthChoice) -> Vec<usize> {
     let search = filter.search.trim().to_lowercase();
     let mut order: Vec<usize> = (0..rows.len())

@@ -4,6 +4,7 @@ use egui::text::LayoutJob;
 use egui::{Align, Button, Layout, RichText, ScrollArea, TextFormat, TextStyle, Ui};
 
 use crate::app::{Command, Entry, Sample, Source, State};
+use crate::ui::action::WindowAct;
 use crate::ui::widgets::controls::{hint, small, text_field, warning_color};
 
 /// Lists that are longer than this can be filtered.
@@ -11,17 +12,9 @@ const UNFILTERED: usize = 10;
 /// The rows of the list that are shown at a time.
 const ROWS: f32 = 12.0;
 
-/// What the panel cannot do itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FilesAnswer {
-    /// Files are to be chosen in a dialog.
-    OpenDialog,
-}
-
-/// Shows the list, and says what is wanted of it.
-pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FilesAnswer> {
+/// Shows the list, and the samples and recent files; returns the request for the dialog that opens files.
+pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<WindowAct> {
     ui.spacing_mut().item_spacing.y = 4.0;
-    let mut answer = None;
     if state.entries.is_empty() {
         ui.label(RichText::new("Nothing is open.").strong());
         hint(ui, "Drop PLY files or a folder here, or open some:");
@@ -30,19 +23,15 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<F
         list(ui, state, commands);
         ui.add_space(4.0);
     }
-    if ui
+    let open = ui
         .button("Open…")
-        .on_hover_text("Choose PLY files of point clouds. A folder is opened by dropping it on the window.")
-        .clicked()
-    {
-        answer = Some(FilesAnswer::OpenDialog);
-    }
+        .on_hover_text("Choose PLY files of point clouds. A folder is opened by dropping it on the window.");
     if !state.entries.is_empty() {
         hint(ui, "Or drop PLY files or a folder here.");
     }
     samples(ui, state, commands);
     recent(ui, state, commands);
-    answer
+    open.clicked().then_some(WindowAct::OpenFiles)
 }
 
 fn steps(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {

@@ -1,37 +1,37 @@
-//! What is written and drawn over the picture in pixels, as data.
+//! The 2-D primitives painted over a picture, positioned in pixels.
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::render::{Background, Color};
 
-/// Where a text stands relative to its place.
+/// The alignment of a text with its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
-    /// It begins there.
+    /// The place is its start.
     Start,
-    /// Its middle is there.
+    /// The place is its middle.
     Middle,
-    /// It ends there.
+    /// The place is its end.
     End,
 }
 
-/// One thing to be painted; positions in pixels from the upper left corner.
+/// A line of text, a line, a box or a color ramp; positions in pixels from the upper left corner.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Annotation {
+pub enum Primitive {
     /// A line of text.
     Text {
         /// Its baseline's place.
         at: DVec2,
-        /// How it stands there.
+        /// Its alignment.
         anchor: Anchor,
         /// The size of its letters.
         size_px: f64,
         /// Their color.
         color: Color,
-        /// The color around them, where they stand on points.
+        /// The color around the letters, if they may be over points.
         halo: Option<Color>,
-        /// What it says.
+        /// Its content.
         text: String,
     },
     /// A straight line.
@@ -67,6 +67,7 @@ pub enum Annotation {
 
 /// Light on dark, or dark on light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Theme {
     /// A dark background.
     #[default]
@@ -76,7 +77,7 @@ pub enum Theme {
 }
 
 impl Theme {
-    /// What is behind everything.
+    /// The background of a picture.
     pub fn background(self) -> Background {
         match self {
             Self::Dark => Background {
@@ -98,7 +99,7 @@ impl Theme {
         }
     }
 
-    /// The color of text that stays behind.
+    /// The color of less important text.
     pub fn quiet_ink(self) -> Color {
         match self {
             Self::Dark => [0xb6, 0xba, 0xc2, 255],
@@ -106,7 +107,7 @@ impl Theme {
         }
     }
 
-    /// What lies under a text that may cross points.
+    /// The color under a text that may cross points.
     pub fn paper(self) -> Color {
         match self {
             Self::Dark => [0x16, 0x18, 0x1c, 225],

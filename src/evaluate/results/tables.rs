@@ -1,4 +1,4 @@
-//! Rows as CSV and as Parquet: the same columns in both.
+//! The rows as CSV and as Parquet, with the same columns.
 
 use std::sync::Arc;
 
@@ -9,27 +9,27 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
-use super::Row;
+use crate::evaluate::Row;
 
-/// Why a table could not be written.
+/// The reason why a table could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
-    /// As CSV.
+    /// The CSV writer failed.
     #[error("the CSV could not be written: {0}")]
     Csv(String),
-    /// As Parquet.
+    /// The Parquet writer failed.
     #[error("the Parquet file could not be written")]
     Parquet(#[from] ParquetError),
 }
 
-/// A cell's value; `None` is an empty field in CSV and a null in Parquet.
+/// The value of a cell; `None` is an empty field in CSV and a null in Parquet.
 enum Value {
     Text(Option<String>),
     Count(Option<u64>),
     Number(Option<f64>),
 }
 
-/// A column: its name, and its value in a row.
+/// The name of a column, and its value in a row.
 type Column = (&'static str, fn(&Row) -> Value);
 
 macro_rules! components {
@@ -38,7 +38,7 @@ macro_rules! components {
     };
 }
 
-/// Every column, in their order.
+/// All columns in order.
 const COLUMNS: [Column; 34] = [
     ("file", |row| Value::Text(Some(row.file.clone()))),
     ("sha256", |row| Value::Text(row.sha256.clone())),
@@ -86,10 +86,10 @@ const COLUMNS: [Column; 34] = [
     ("note", |row| Value::Text(Some(row.note.clone()))),
 ];
 
-/// The rows as CSV, with a head line.
+/// Writes the rows as CSV with a header.
 ///
 /// # Errors
-/// Where memory runs out.
+/// Returns an error if the writer fails.
 pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
     let mut table = csv::Writer::from_writer(Vec::new());
     let write = |table: &mut csv::Writer<Vec<u8>>, fields: Vec<String>| {
@@ -112,10 +112,10 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
     table.into_inner().map_err(|e| TableError::Csv(e.to_string()))
 }
 
-/// The rows as a Parquet file of one row group, with nulls for what does not exist.
+/// Writes the rows as a Parquet file of one row group, with nulls for missing values.
 ///
 /// # Errors
-/// Where the library refuses.
+/// Returns an error if the writer fails.
 pub fn parquet(rows: &[Row]) -> Result<Vec<u8>, TableError> {
     let sample = Row::failed("", String::new());
     let field = |(name, value): &Column| {

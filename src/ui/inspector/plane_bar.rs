@@ -4,13 +4,13 @@ use egui::{
     DragValue, Id, Painter, Pos2, Rect, Response, Role, Sense, Shape, Slider, Stroke, Ui, WidgetInfo, vec2,
 };
 
+use crate::app::inspector::planes::{PlaneFacts, Planes};
 use crate::app::{Command, PlaneChoice, State};
-use crate::ui::widgets::planes::Planes;
 use crate::ui::widgets::{notice, plane_tip};
 
 /// Draws the bar.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let Some(planes) = Planes::of(ui.ctx(), state) else {
+    let Some(planes) = plane_tip::planes_of(ui.ctx(), state) else {
         notice::nothing_to_show(ui, state, commands);
         return;
     };
@@ -120,7 +120,7 @@ fn slider(
         .on_hover_text(explained)
         .accessible_name("Plane");
 
-    let at = |n: f64| -> Option<&crate::ui::widgets::planes::PlaneFacts> {
+    let at = |n: f64| -> Option<&PlaneFacts> {
         // From 1 to the number of planes.
         let place = (n.round().max(1.0) as usize).min(count) - 1;
         order.get(place).and_then(|&i| planes.facts.get(i))

@@ -1,20 +1,19 @@
-//! Small pictures of clouds, for the gallery and for the report.
+//! Pictures of single clouds, for the report and as thumbnails.
 
 use std::path::Path;
 
-use crate::app::{Drawing, analysis_options, draw_cloud};
-use crate::evaluate::{Examined, Row, TruthChoice, WorstPicture, examine, worst_first};
-use crate::fruit::Fruit;
-use crate::fruit::Request;
+use super::{Examined, Row, TruthChoice, WorstPicture, examine, worst_first};
+use crate::fruit::{Fruit, Request};
 use crate::render::{Gpu, Image, Projection};
-use crate::view::{Coloring, Overlays, Theme, ViewPreset};
-use crate::view::{PictureSettings, encode_picture};
+use crate::view::{
+    Coloring, Drawing, Overlays, PictureSettings, Style, Theme, ViewPreset, draw_cloud, encode_picture,
+};
 
 /// The size of the report's pictures, in pixels.
 const REPORT_PX: [u32; 2] = [560, 420];
 const OVERLAYS: &str = "plane,axis,reference";
 
-/// Pictures of the `count` worst clouds, the worst first. A sentence instead where one cannot be drawn: a
+/// Draws the `count` worst clouds, the worst first. The second value is a sentence if one cannot be drawn: a
 /// report without pictures is better than none.
 pub fn pictures_of_worst(
     folder: &Path,
@@ -44,13 +43,13 @@ pub fn pictures_of_worst(
     (pictures, None)
 }
 
-/// A picture that carries the command line that draws it again.
+/// Draws a picture as PNG bytes that hold the command line to draw it again.
 fn report_picture(path: &Path, row: &Row, request: &Request, gpu: &Gpu) -> Result<Vec<u8>, String> {
     let named = || path.display().to_string();
-    let fruit = Fruit::read(path, request.unit, &request.peduncle).map_err(|e| e.to_string())?;
+    let fruit = Fruit::read(path, request).map_err(|e| e.to_string())?;
     let examined = examine(fruit, request, &()).map_err(|e| format!("{}: {e}", named()))?;
     let reference = reference_of_row(row.truth.as_deref());
-    let image = picture(&examined, reference, REPORT_PX, Theme::Light, gpu)?;
+    let image = draw_small(&examined, reference, REPORT_PX, Theme::Light, gpu)?;
     let word = match reference {
         TruthChoice::Truth => "truth",
         TruthChoice::Manual => "manual",
@@ -71,7 +70,7 @@ fn report_picture(path: &Path, row: &Row, request: &Request, gpu: &Gpu) -> Resul
         word,
     ];
     arguments.extend(look.map(String::from));
-    arguments.extend(analysis_options(request));
+    arguments.extend(request.options());
     let settings = PictureSettings {
         version: env!("CARGO_PKG_VERSION").into(),
         arguments,
@@ -81,7 +80,7 @@ fn report_picture(path: &Path, row: &Row, request: &Request, gpu: &Gpu) -> Resul
     encode_picture(&image, &settings).map_err(|e| format!("{}: {e}", named()))
 }
 
-/// The reference that a row was measured against.
+/// Returns the reference that a row was measured against.
 fn reference_of_row(truth: Option<&str>) -> TruthChoice {
     match truth {
         Some("simulation") => TruthChoice::Truth,
@@ -91,8 +90,11 @@ fn reference_of_row(truth: Option<&str>) -> TruthChoice {
     }
 }
 
-/// The sides of the best plane, the plane, and both axes.
-pub(super) fn picture(
+/// Draws the sides of the best plane, the plane, and both axes.
+///
+/// # Errors
+/// Returns a clause that begins with the file if the cloud cannot be drawn.
+pub(super) fn draw_small(
     examined: &Examined,
     reference: TruthChoice,
     size_px: [u32; 2],
@@ -101,21 +103,23 @@ pub(super) fn picture(
 ) -> Result<Image, String> {
     let drawing = Drawing {
         size_px,
-        coloring: Coloring::Side,
+        style: Style {
+            coloring: Coloring::Side,
+            // A list of the program's own.
+            overlays: OVERLAYS.parse::<Overlays>().unwrap_or_default(),
+            theme,
+            point_size: None,
+            eye_dome: true,
+        },
         plane: None,
         view: ViewPreset::Camera,
         camera: None,
-        reference,
-        // A list of the program's own.
-        overlays: OVERLAYS.parse::<Overlays>().unwrap_or_default(),
-        theme,
-        point_size_px: None,
         projection: Projection::Perspective,
-        is_shaded: true,
         // A small picture has no room for words.
         has_angle: size_px == REPORT_PX,
     };
     let path = &examined.fruit.file.path;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    draw_cloud(examined, &drawing, &name, gpu).map_err(|error| format!("{}: {error}", path.display()))
+    draw_cloud(&examined.drawn(&name, reference), &drawing, gpu, &())
+        .map_err(|error| format!("{}: {error}", path.display()))
 }

@@ -1,16 +1,16 @@
-//! What the panels say of every candidate plane, computed once an analysis.
+//! The candidate planes of an analysis with their ranks, axes and errors, as the panels show them.
 
 use std::sync::Arc;
 
-use egui::{Color32, Context, Id};
 use glam::DVec3;
 
-use crate::app::{PlaneChoice, State};
+use super::super::PlaneChoice;
 use crate::geometry::angle_between_lines_rad;
 use crate::method::Analysis;
+use crate::render::Color;
 use crate::view::value_color;
 
-/// One candidate plane, as people want to know it.
+/// One candidate plane with its rank, its axis and the axis's error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneFacts {
     /// The step of α, from 1.
@@ -23,7 +23,7 @@ pub struct PlaneFacts {
     pub score_cm: Option<f64>,
     /// The place in the ranking, from 1; `None` without a score.
     pub rank: Option<usize>,
-    /// Points with a visible symmetric partner.
+    /// The number of points with a visible symmetric partner.
     pub partners: usize,
     /// ΣD in centimeters.
     pub distance_sum_cm: f64,
@@ -31,22 +31,22 @@ pub struct PlaneFacts {
     pub angle_sum_rad: f64,
     /// The unit direction of the plane's axis; `None` where Eq. 16 gives none.
     pub axis: Option<DVec3>,
-    /// The axis's angle to the reference in degrees, where there are both.
+    /// The axis's angle to the reference in degrees; `None` without either.
     pub error_deg: Option<f64>,
 }
 
 impl PlaneFacts {
-    /// The mean of d over the points with a partner, in centimeters.
+    /// Returns the mean of d over the points with a partner, in centimeters.
     pub fn mean_distance_cm(&self) -> Option<f64> {
         (self.partners > 0).then(|| self.distance_sum_cm / self.partners as f64)
     }
 
-    /// The mean of ξ over the points with a partner, in degrees.
+    /// Returns the mean of ξ over the points with a partner, in degrees.
     pub fn mean_angle_deg(&self) -> Option<f64> {
         (self.partners > 0).then(|| (self.angle_sum_rad / self.partners as f64).to_degrees())
     }
 
-    /// The plane as a choice.
+    /// Returns the choice of this plane.
     pub fn choice(&self) -> PlaneChoice {
         PlaneChoice::At { g: self.g, h: self.h }
     }
@@ -57,17 +57,16 @@ impl PlaneFacts {
 pub struct Planes {
     /// The analysis.
     pub analysis: Arc<Analysis>,
-    /// One a plane.
+    /// The facts of each plane.
     pub facts: Vec<PlaneFacts>,
-    /// What the colors span.
+    /// The range of the colors; `None` if no plane has a score.
     pub scale: Option<ScoreScale>,
-    reference: Option<DVec3>,
 }
 
-/// The scores that the colors span, in centimeters.
+/// The range of scores that the colors span, in centimeters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScoreScale {
-    /// The lowest: the best plane's.
+    /// The lowest score: the best plane's.
     pub low_cm: f64,
     /// The upper end.
     pub high_cm: f64,
@@ -75,22 +74,22 @@ pub struct ScoreScale {
     pub is_open: bool,
 }
 
-/// The share of scores that the colors span.
+/// The share of the scores that the colors span.
 const SCALE_SHARE: f64 = 0.98;
 
 impl ScoreScale {
-    /// The color of a score: the program's ramp turned around, so that the lowest is the brightest.
-    pub fn color(&self, score_cm: f64) -> Color32 {
+    /// Returns the color of a score: the program's ramp turned around, so that the lowest is the brightest.
+    pub fn color(&self, score_cm: f64) -> Color {
         let span = self.high_cm - self.low_cm;
         let t = if span > 0.0 {
             (score_cm - self.low_cm) / span
         } else {
             0.0
         };
-        ramp_color(1.0 - t)
+        value_color(1.0 - t)
     }
 
-    /// A score with the digits that the scale can tell apart.
+    /// Formats a score with the digits that the scale can tell apart.
     pub fn digits(&self, score_cm: f64) -> String {
         let span = (self.high_cm - self.low_cm).max(1e-6);
         // From 0 to 6.
@@ -99,28 +98,9 @@ impl ScoreScale {
     }
 }
 
-/// The program's ramp at `t`, 0 to 1.
-pub fn ramp_color(t: f64) -> Color32 {
-    let [r, g, b, _] = value_color(t);
-    Color32::from_rgb(r, g, b)
-}
-
 impl Planes {
-    /// The planes of the newest analysis, computed anew only where it or the reference has changed.
-    pub fn of(ctx: &Context, state: &State) -> Option<Arc<Self>> {
-        let analysis = state.analysis()?;
-        let reference = state.reference().map(|r| r.direction);
-        let id = Id::unique("planes of the newest analysis");
-        let kept: Option<Arc<Self>> = ctx.data(|data| data.get_temp(id));
-        if let Some(kept) = kept.filter(|k| Arc::ptr_eq(&k.analysis, analysis) && k.reference == reference) {
-            return Some(kept);
-        }
-        let planes = Arc::new(Self::new(analysis, reference));
-        ctx.data_mut(|data| data.insert_temp(id, planes.clone()));
-        Some(planes)
-    }
-
-    fn new(analysis: &Arc<Analysis>, reference: Option<DVec3>) -> Self {
+    /// Collects the planes of an analysis, whose axes are compared with `reference`, a direction of unit length.
+    pub fn new(analysis: &Arc<Analysis>, reference: Option<DVec3>) -> Self {
         let ranking = &analysis.ranking;
         let grid = analysis.planes.grid;
         let mut ranks = vec![None; grid.plane_count()];
@@ -148,47 +128,47 @@ impl Planes {
             facts: facts.collect(),
             scale: score_scale(analysis),
             analysis: analysis.clone(),
-            reference,
         }
     }
 
-    /// Steps along each angle.
+    /// Returns u, the number of steps along each angle.
     pub fn u(&self) -> usize {
         self.analysis.planes.grid.u()
     }
 
-    /// The index of the best plane.
+    /// Returns the index of the best plane.
     pub fn best(&self) -> Option<usize> {
         self.analysis.ranking.order().first().copied()
     }
 
-    /// The index of the runner-up.
+    /// Returns the index of the runner-up.
     pub fn runner_up(&self) -> Option<usize> {
         self.analysis.ranking.runner_up()
     }
 
-    /// How many planes have a score.
+    /// Returns the number of planes with a score.
     pub fn ranked(&self) -> usize {
         self.analysis.ranking.order().len()
     }
 
-    /// Points of the analysis.
+    /// Returns the number of points analyzed.
     pub fn points(&self) -> usize {
         self.analysis.planes.points
     }
 
-    /// The share of the points that has a partner under a plane, in percent.
+    /// Returns the share of the points that have a partner under a plane, in percent.
     pub fn partner_percent(&self, facts: &PlaneFacts) -> f64 {
         100.0 * facts.partners as f64 / self.points().max(1) as f64
     }
 
-    /// A plane's color; `None` where it has no score.
-    pub fn color(&self, index: usize) -> Option<Color32> {
+    /// Returns a plane's color; `None` without a score.
+    pub fn color(&self, index: usize) -> Option<Color> {
         let score = self.facts.get(index)?.score_cm?;
         Some(self.scale?.color(score))
     }
 
-    /// Every plane from the best on; those without a score follow in the grid's order.
+    /// Returns the indices of all planes from the best to the worst, then of those without a score in the grid's
+    /// order.
     pub fn in_rank_order(&self) -> Vec<usize> {
         let scored = self.analysis.ranking.order().iter().copied();
         let others = (0..self.facts.len()).filter(|&i| self.facts[i].rank.is_none());
