@@ -106,6 +106,7 @@ pub(super) fn analyze_by_readings(
     u: usize,
     seed: u64,
 ) -> Result<ReadingResults, AnalysisError> {
+    use ReadingCenter::{Equidistant, MeanRms, Sphere, True};
     let search = RandomSearch {
         seed,
         ..RandomSearch::default()
@@ -115,7 +116,6 @@ pub(super) fn analyze_by_readings(
         points: 0,
         readings: [const { None }; READINGS.len()],
     };
-    use ReadingCenter::{Equidistant, MeanRms, Sphere, True};
     // Center by center, since one is kept at a time.
     for center in [MeanRms, Equidistant, Sphere, True] {
         let method = match center {
