@@ -1,4 +1,4 @@
-//! The paper, a file a step.
+//! The method of the paper, a file for each step.
 //!
 //! ```text
 //! cloud ─▶ filters ─▶ normals ─▶ center ─▶ plane terms ─▶ scores ─▶ axis
