@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // The defaults follow the paper as its authors meant it, and take the unit and the peduncle from the file.
     let request = Request::default();
-    let fruit = Fruit::read(&path, request.unit, &request.peduncle)?;
+    let fruit = Fruit::read(&path, &request)?;
     println!(
         "{}: {} points in {}",
         path.display(),

@@ -21,7 +21,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! // As the paper's authors meant the method, with the unit and the peduncle that the file states.
 //! let request = Request::default();
-//! let fruit = Fruit::read("assets/pepper.ply".as_ref(), request.unit, &request.peduncle)?;
+//! let fruit = Fruit::read("assets/pepper.ply".as_ref(), &request)?;
 //! let examined = examine(fruit, &request, &())?;
 //!
 //! // This pepper was simulated: its true axis lies in a file beside it.
@@ -49,13 +49,14 @@
 //! | [`peduncle`] | the points of the peduncle and the two reference axes that they give (§ 3.2) |
 //! | [`simulate`] | ellipsoids (§ 2.1) and peppers before a depth camera, with their true axes |
 //! | [`annotate`] | true axes set by hand: their files, the agreement between annotators, exchange with other programs |
+//! | [`undo`] | a history of undo and redo |
 //! | [`ply`] | the reader and the writer of PLY files |
 //! | [`fruit`] | a cloud with everything that its files say of it, and the [`Request`](fruit::Request) to analyze it |
 //! | [`evaluate`] | one cloud or many, compared with their references |
 //! | [`render`] | a camera, a scene of points and lines, and their picture by the GPU |
 //! | [`view`] | what a view of an analysis shows: colors, legends, overlays, captions |
 #![cfg_attr(feature = "reports", doc = "| [`charts`] | figures as SVG and PNG |")]
-#![cfg_attr(feature = "reports", doc = "| [`app`] | state and commands of the window |")]
+#![cfg_attr(feature = "window", doc = "| [`app`] | state and commands of the window |")]
 #![cfg_attr(feature = "window", doc = "| [`ui`] | the window |")]
 //!
 //! # Features
@@ -84,7 +85,7 @@
 //! Vectors are those of [`glam`], which this crate re-exports.
 
 pub mod annotate;
-#[cfg(feature = "reports")]
+#[cfg(feature = "window")]
 pub mod app;
 #[cfg(feature = "reports")]
 pub mod charts;

@@ -26,7 +26,7 @@ use std::time::Duration;
 
 use glam::DVec2;
 
-use crate::evaluate::Tagged;
+use crate::evaluate::CloudTags;
 use crate::geometry::Extent;
 use crate::method::{AxisEstimate, PlaneDetail};
 use crate::parallel::Cancelled;
@@ -68,7 +68,7 @@ enum Step {
     /// The tags and the note of a cloud.
     Tags {
         path: PathBuf,
-        tagged: Tagged,
+        tagged: CloudTags,
     },
 }
 

@@ -1,7 +1,7 @@
 //! The canvas of a figure: lines, areas and texts in units of the figure.
 //!
-//! Figures use kuva's axes, ticks, colors and SVG, but not its plots: those draw a missing bar as one of height zero and a
-//! missing cell in some color, and write the label of a guide over the data.
+//! Figures use kuva's axes, ticks, colors and SVG, but not its plots: those have no mark for a missing bar or cell, write
+//! the labels of guides over the data and over each other, and let legends run over the title.
 
 use kuva::{
     backend::svg::SvgBackend,

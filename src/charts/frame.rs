@@ -148,7 +148,7 @@ impl Frame<'_> {
                 ..Theme::light()
             });
         if let Under::Categories(names) = self.under {
-            // Only so that no grid line stands under each of them: their texts are drawn here.
+            // Only so that there is no grid line under each of them: their texts are drawn here.
             layout = layout.with_x_categories(names.to_vec());
         }
         if let Some(names) = self.row_names() {

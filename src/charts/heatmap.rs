@@ -103,7 +103,7 @@ impl Heatmap {
                 bottom,
             }
         };
-        // Numbers stand in the cells where every one of them fits.
+        // The cells hold numbers if every one of them fits.
         let write = one_decimal;
         let texts = self
             .cells

@@ -151,7 +151,7 @@ impl LineChart {
         let mut first_index = 0;
         for ((panel, plot), frame) in self.panels.iter().zip(&plots).zip(&frames) {
             frame.draw_guides(&mut canvas, plot);
-            // Dots on the edge stay whole where nothing has to be cut off.
+            // Dots on the edge stay whole if nothing has to be cut off.
             let bleed = if panel.y_range.is_some() { 0.0 } else { 5.0 };
             canvas.within(plot.area.grown(bleed), |canvas| {
                 panel.draw(canvas, plot, first_index);
@@ -238,12 +238,12 @@ impl LineSeries {
         }
     }
 
-    /// Position, value and spread (0 where there is none) of the points that can be drawn.
+    /// Position, value and spread (0 if it is missing) of the points that can be drawn.
     fn drawn(&self) -> impl Iterator<Item = (f64, f64, f64)> {
         self.points.iter().filter_map(LinePoint::drawn)
     }
 
-    /// The points that can be drawn, broken where one between them cannot.
+    /// The points that can be drawn, in runs without a gap.
     fn runs(&self) -> Vec<Vec<(f64, f64, f64)>> {
         let broken = self.points.split(|point| point.drawn().is_none());
         broken

@@ -73,7 +73,7 @@ impl Scale {
         }))
     }
 
-    /// The scale that the caller asked for.
+    /// The scale of a range that the caller gives.
     pub(super) fn given(low: f64, high: f64, ticks: usize) -> Result<Self, FigureError> {
         let good = low.abs() <= LARGEST && high.abs() <= LARGEST && high - low >= widest_nothing(low, high);
         if good {

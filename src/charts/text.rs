@@ -27,19 +27,10 @@ pub(crate) fn width(text: &str, size: u32) -> f64 {
     units * size / f64::from(face.units_per_em())
 }
 
-/// The text on one line of at most `room`, its end replaced by an ellipsis where it is longer.
+/// The text on one line of at most `room`, its end replaced by an ellipsis if it is longer.
 pub(super) fn shortened(text: &str, size: u32, room: f64) -> String {
-    if width(text, size) <= room {
-        return text.to_owned();
-    }
-    let mut kept: String = text.to_owned();
-    while kept.pop().is_some() {
-        let candidate = format!("{}…", kept.trim_end());
-        if width(&candidate, size) <= room {
-            return candidate;
-        }
-    }
-    "…".to_owned()
+    let short = crate::text::shortened(text, |text| width(text, size) <= room);
+    short.unwrap_or_else(|| "…".to_owned())
 }
 
 /// The text broken between words into lines of at most `room`; at most `max_lines` of them, the last one shortened.

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use anyhow::Context;
 use axiscope::evaluate::{
-    AnalysisReport, Examined, Timings, TruthChoice, examine, peduncle_disagreement_deg, reference_of,
+    AnalysisReport, Examination, Timings, TruthChoice, examine, peduncle_disagreement_deg, reference_of,
 };
 use axiscope::fruit::Fruit;
 use axiscope::geometry::Unit;
@@ -74,10 +74,10 @@ fn milliseconds_since(start: Instant) -> f64 {
 fn write_text(
     out: &mut impl Write,
     path: &Path,
-    examined: &Examined,
+    examined: &Examination,
     timings: &Timings,
 ) -> std::io::Result<()> {
-    let Examined {
+    let Examination {
         fruit,
         analysis,
         warnings,
@@ -150,8 +150,8 @@ fn write_text(
 }
 
 /// Writes the peduncle's references, the axis's error against each, and the angle between them.
-fn write_references(out: &mut impl Write, examined: &Examined) -> std::io::Result<()> {
-    let Examined {
+fn write_references(out: &mut impl Write, examined: &Examination) -> std::io::Result<()> {
+    let Examination {
         fruit,
         analysis,
         references,

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use axiscope::evaluate::{Examined, examine};
+use axiscope::evaluate::{Examination, examine};
 use axiscope::fruit::Fruit;
 use axiscope::render::Gpu;
 use axiscope::view::{DrawingError, PictureSettings, draw_cloud, encode_picture, picture_settings};
@@ -107,7 +107,7 @@ fn examined(
     cloud: &Path,
     options: &AnalysisOptions,
     expected_sha256: Option<&str>,
-) -> anyhow::Result<Examined> {
+) -> anyhow::Result<Examination> {
     let request = options.request();
     let fruit = Fruit::read(cloud, &request)?;
     if expected_sha256.is_some_and(|hash| hash != fruit.file.sha256) {

@@ -22,9 +22,22 @@ pub enum TruthChoice {
     Truth,
 }
 
+impl TruthChoice {
+    /// Returns the name of the choice on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Peduncle => "peduncle",
+            Self::PeduncleDirection => "peduncle-direction",
+            Self::Manual => "manual",
+            Self::Truth => "truth",
+        }
+    }
+}
+
 /// A cloud with its analysis and its reference axes.
 #[derive(Debug, Clone)]
-pub struct Examined {
+pub struct Examination {
     /// The cloud.
     pub fruit: Fruit,
     /// Its analysis.
@@ -38,7 +51,7 @@ pub struct Examined {
 }
 
 #[cfg(feature = "window")]
-impl Examined {
+impl Examination {
     /// Returns the cloud as it is drawn: under `name`, and compared with the chosen reference, or else with the first
     /// one.
     pub fn drawn<'a>(&'a self, name: &'a str, choice: TruthChoice) -> crate::view::DrawnCloud<'a> {
@@ -58,15 +71,15 @@ impl Examined {
 ///
 /// # Errors
 /// Returns an error if the cloud cannot be analyzed, or the observer cancels the work.
-pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result<Examined, AnalysisError> {
+pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result<Examination, AnalysisError> {
     let mut stages = Stages::new(if request.without_peduncle {
         fruit.body()
     } else {
         fruit.cloud().clone()
     });
     let analysis = stages.analyze(&request.params(&fruit), observe)?;
-    let (references, warnings) = compared(&fruit, request, &analysis);
-    Ok(Examined {
+    let (references, warnings) = collect_references(&fruit, request, &analysis);
+    Ok(Examination {
         fruit,
         analysis,
         references,
@@ -77,7 +90,11 @@ pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result
 
 /// Collects the reference axes of an analysis, that of the peduncle first, and the warnings: those of the file, then
 /// those of the method, as sentences.
-pub fn compared(fruit: &Fruit, request: &Request, analysis: &Analysis) -> (Vec<AxisEstimate>, Vec<String>) {
+pub fn collect_references(
+    fruit: &Fruit,
+    request: &Request,
+    analysis: &Analysis,
+) -> (Vec<AxisEstimate>, Vec<String>) {
     let mut warnings = fruit.warnings.clone();
     if request.without_peduncle && fruit.peduncle.is_none() {
         warnings.push("There is no peduncle to leave out: the cloud is analyzed as it stands.".into());

@@ -24,10 +24,12 @@ mod start;
 mod summary;
 mod sweep;
 mod tags;
-#[cfg(feature = "reports")]
+#[cfg(feature = "window")]
 mod thumbnails;
 
-pub use examine::{Examined, TruthChoice, compared, examine, peduncle_disagreement_deg, reference_of};
+pub use examine::{
+    Examination, TruthChoice, collect_references, examine, peduncle_disagreement_deg, reference_of,
+};
 pub use file_hashes::KnownHash;
 pub use outcome::{KnownAxis, Outcome};
 #[cfg(feature = "window")]
@@ -41,6 +43,6 @@ pub use runner::{EvaluateError, EvaluatedCloud, Reuse, Runner, annotation_files,
 pub use start::{StartError, start_axis};
 pub use summary::Summary;
 pub use sweep::{Sweep, SweepSettings, sweep_cloud};
-pub use tags::{TAGS_FILE, Tagged, add_tags, read_tags, write_tags};
-#[cfg(feature = "reports")]
+pub use tags::{CloudTags, TAGS_FILE, add_tags, read_tags, write_tags};
+#[cfg(feature = "window")]
 pub use thumbnails::{THUMBNAIL_PX, ThumbnailFile, ThumbnailRenderer, ThumbnailSettings};

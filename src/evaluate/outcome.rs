@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Examined, Row, TruthChoice, examine, peduncle_disagreement_deg, reference_of};
+use super::{Examination, Row, TruthChoice, examine, peduncle_disagreement_deg, reference_of};
 use crate::fruit::{Fruit, FruitError, ReadErrorKind, Request};
 use crate::method::{Analysis, AxisEstimate, Observe, axis_error_rad};
 use crate::parallel::Cancelled;
@@ -45,8 +45,8 @@ impl Outcome {
     }
 
     /// Creates the outcome of an analyzed cloud.
-    pub fn of(file: &str, examined: &Examined) -> Self {
-        let Examined {
+    pub fn of(file: &str, examined: &Examination) -> Self {
+        let Examination {
             fruit,
             analysis,
             references,
@@ -125,7 +125,7 @@ impl Outcome {
         path: &Path,
         request: &Request,
         observe: &dyn Observe,
-    ) -> Result<(Self, Option<Examined>), Cancelled> {
+    ) -> Result<(Self, Option<Examination>), Cancelled> {
         let failed = |reason| Ok((Self::failed(file, reason), None));
         let fruit = match Fruit::read_watched(path, request, observe) {
             Ok(fruit) => fruit,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Examined, Row, TruthChoice, WorstPicture, examine, worst_first};
+use super::{Examination, Row, TruthChoice, WorstPicture, examine, worst_first};
 use crate::fruit::{Fruit, Request};
 use crate::render::{Gpu, Image, Projection};
 use crate::view::{
@@ -50,12 +50,6 @@ fn report_picture(path: &Path, row: &Row, request: &Request, gpu: &Gpu) -> Resul
     let examined = examine(fruit, request, &()).map_err(|e| format!("{}: {e}", named()))?;
     let reference = reference_of_row(row.truth.as_deref());
     let image = draw_small(&examined, reference, REPORT_PX, Theme::Light, gpu)?;
-    let word = match reference {
-        TruthChoice::Truth => "truth",
-        TruthChoice::Manual => "manual",
-        TruthChoice::PeduncleDirection => "peduncle-direction",
-        _ => "peduncle",
-    };
     let [width, height] = REPORT_PX;
     let mut arguments: Vec<String> = ["render".into(), named(), "-o".into(), "picture.png".into()].into();
     let size = format!("{width}x{height}");
@@ -67,7 +61,7 @@ fn report_picture(path: &Path, row: &Row, request: &Request, gpu: &Gpu) -> Resul
         "--overlays",
         OVERLAYS,
         "--reference",
-        word,
+        reference.name(),
     ];
     arguments.extend(look.map(String::from));
     arguments.extend(request.options());
@@ -95,7 +89,7 @@ fn reference_of_row(truth: Option<&str>) -> TruthChoice {
 /// # Errors
 /// Returns a clause that begins with the file if the cloud cannot be drawn.
 pub(super) fn draw_small(
-    examined: &Examined,
+    examined: &Examination,
     reference: TruthChoice,
     size_px: [u32; 2],
     theme: Theme,

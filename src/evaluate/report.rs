@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Examined, TruthChoice, peduncle_disagreement_deg, reference_of};
+use super::{Examination, TruthChoice, peduncle_disagreement_deg, reference_of};
 use crate::fruit::Request;
 use crate::geometry::Unit;
 use crate::method::{Aggregation, AxisEstimate, CenterMethod, NormalSource, Params, axis_error_rad};
@@ -121,8 +121,14 @@ struct ReferenceReport {
 impl AnalysisReport {
     /// Creates a report. `path` is the cloud's file as the user named it, and `seed` the given seed, whether it is
     /// used or not.
-    pub fn new(path: &Path, request: &Request, seed: u64, examined: &Examined, timings_ms: Timings) -> Self {
-        let Examined {
+    pub fn new(
+        path: &Path,
+        request: &Request,
+        seed: u64,
+        examined: &Examination,
+        timings_ms: Timings,
+    ) -> Self {
+        let Examination {
             fruit,
             analysis,
             references,

@@ -41,7 +41,6 @@ pub struct StoredRow {
 #[derive(Serialize, Deserialize)]
 struct RowLine {
     key: String,
-    #[serde(flatten)]
     row: StoredRow,
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Examined, TruthChoice, reference_of};
+use super::{Examination, TruthChoice, reference_of};
 use crate::method::{AnalysisError, Observe, Params, axis_error_rad};
 
 /// The settings to try: every u with every τ.
@@ -60,7 +60,7 @@ impl Sweep {
 /// # Errors
 /// Returns an error if a u or τ is out of range, or `observe` cancels the work.
 pub fn sweep_cloud(
-    examined: &Examined,
+    examined: &Examination,
     choice: TruthChoice,
     settings: &SweepSettings,
     observe: &dyn Observe,

@@ -21,7 +21,7 @@ const MAX_BYTES: u64 = 64 << 20;
 /// Tags and note of one cloud.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Tagged {
+pub struct CloudTags {
     /// Short words, sorted, each once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tags: Vec<String>,
@@ -30,7 +30,7 @@ pub struct Tagged {
     pub note: String,
 }
 
-impl Tagged {
+impl CloudTags {
     /// Returns whether there are neither tags nor a note.
     pub fn is_empty(&self) -> bool {
         self.tags.is_empty() && self.note.is_empty()
@@ -58,14 +58,14 @@ impl Tagged {
 #[serde(deny_unknown_fields)]
 struct TagsFile {
     schema: String,
-    clouds: BTreeMap<String, Tagged>,
+    clouds: BTreeMap<String, CloudTags>,
 }
 
 /// Reads the tags and notes of a folder, by the clouds' file names; none if there is no file.
 ///
 /// # Errors
 /// Returns a sentence if the file cannot be used.
-pub fn read_tags(folder: &Path) -> Result<BTreeMap<String, Tagged>, String> {
+pub fn read_tags(folder: &Path) -> Result<BTreeMap<String, CloudTags>, String> {
     let path = folder.join(TAGS_FILE);
     let named = |why: String| {
         format!(
@@ -96,7 +96,7 @@ pub fn read_tags(folder: &Path) -> Result<BTreeMap<String, Tagged>, String> {
 ///
 /// # Errors
 /// Returns a sentence if the file cannot be used or written.
-pub fn write_tags(folder: &Path, name: &str, tagged: &Tagged) -> Result<(), String> {
+pub fn write_tags(folder: &Path, name: &str, tagged: &CloudTags) -> Result<(), String> {
     let path = folder.join(TAGS_FILE);
     // One program at a time. Where folders cannot be locked, the last program wins, for this cloud alone.
     let lock = File::open(folder).ok();
@@ -124,7 +124,7 @@ pub fn write_tags(folder: &Path, name: &str, tagged: &Tagged) -> Result<(), Stri
 }
 
 /// Fills in tags and notes of the rows from those of their folder.
-pub fn add_tags(rows: &mut [Row], tags: &BTreeMap<String, Tagged>) {
+pub fn add_tags(rows: &mut [Row], tags: &BTreeMap<String, CloudTags>) {
     for row in rows {
         if let Some(tagged) = tags.get(&row.file) {
             row.tags = tagged.tags.join(", ");

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::row_store::{THUMBNAILS, params_key, stable_hash};
-use super::{Examined, Outcome, RowStore, TruthChoice};
+use super::{Examination, Outcome, RowStore, TruthChoice};
 use crate::annotate::annotation_paths;
 use crate::fruit::{Request, files_behind};
 use crate::method::Observe;
@@ -101,21 +101,10 @@ impl ThumbnailRenderer {
     }
 }
 
-#[cfg(feature = "window")]
 type Device = Option<Result<crate::render::Gpu, String>>;
 
-#[cfg(feature = "window")]
-fn draw(device: &mut Device, examined: &Examined, settings: &ThumbnailSettings) -> Result<Image, String> {
+fn draw(device: &mut Device, examined: &Examination, settings: &ThumbnailSettings) -> Result<Image, String> {
     let gpu = device.get_or_insert_with(|| crate::render::Gpu::headless().map_err(|e| e.to_string()));
     let gpu = gpu.as_ref().map_err(Clone::clone)?;
     super::pictures::draw_small(examined, settings.against, THUMBNAIL_PX, settings.theme, gpu)
-}
-
-/// Without a renderer there are no pictures.
-#[cfg(not(feature = "window"))]
-type Device = ();
-
-#[cfg(not(feature = "window"))]
-fn draw((): &mut Device, _: &Examined, _: &ThumbnailSettings) -> Result<Image, String> {
-    Err("This build draws no pictures: it lacks the feature `window`.".into())
 }

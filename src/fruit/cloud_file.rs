@@ -175,7 +175,7 @@ fn digest(bytes: &[u8], watch: &dyn Watch) -> Result<String, Cancelled> {
 const PIECE: u64 = 4 << 20;
 
 fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
-    // Before the file is opened: opening a pipe waits for somebody to write into it.
+    // Before the file is opened: opening a pipe waits for a writer.
     let metadata = std::fs::metadata(path)?;
     if metadata.is_dir() {
         return Err(ReadErrorKind::Folder);
@@ -189,7 +189,7 @@ fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
     if !reserved {
         return Err(ReadErrorKind::TooLarge { size });
     }
-    // No more than it had, in case somebody writes faster than we read.
+    // No more than its size, in case another program appends faster than we read.
     let mut file = File::open(path)?.take(size);
     loop {
         if watch.is_cancelled() {

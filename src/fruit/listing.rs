@@ -10,14 +10,14 @@ use crate::annotate::axis_file_of;
 /// Every cloud in the folder, by name. A companion that holds a peduncle alone is no cloud of its own.
 ///
 /// # Errors
-/// Where the folder cannot be read.
+/// Returns an error if the folder cannot be read.
 pub fn clouds_in(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut clouds = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let entry = entry?;
         let path = entry.path();
         let is_ply = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply"));
-        // Only where the folder's own list does not say it is the file asked for.
+        // The file itself is asked only if the folder's list does not tell its kind.
         if is_ply && (entry.file_type().is_ok_and(|kind| kind.is_file()) || !path.is_dir()) {
             clouds.push(path);
         }

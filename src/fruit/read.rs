@@ -187,7 +187,7 @@ impl Fruit {
         Some(labels)
     }
 
-    /// The cloud without the peduncle's points; the whole cloud where there are none.
+    /// The cloud without the peduncle's points; the whole cloud if there are none.
     pub fn body(&self) -> Cloud {
         match &self.peduncle {
             Some(peduncle) => peduncle.removed_from(self.cloud()),

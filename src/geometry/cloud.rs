@@ -1,4 +1,4 @@
-//! A point cloud: positions, and what the file said about each point.
+//! A point cloud: positions, and the other columns of its file.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("{rows} {column} for {points} points")]
 pub struct LengthMismatch {
-    /// What the column holds.
+    /// The name of the column's values.
     pub column: &'static str,
     /// Rows in the column.
     pub rows: usize,
@@ -42,7 +42,7 @@ impl Cloud {
     /// Adds the file's normals, one a point; a zero vector stands for "none".
     ///
     /// # Errors
-    /// Where there is not one for each point.
+    /// Returns an error if there is not one for each point.
     pub fn with_normals(mut self, normals: Vec<Vec3>) -> Result<Self, LengthMismatch> {
         self.check("normals", normals.len())?;
         self.normals = Some(Arc::new(normals));
@@ -52,7 +52,7 @@ impl Cloud {
     /// Adds colors as red, green, blue, alpha, 0 to 255 (sRGB), one a point.
     ///
     /// # Errors
-    /// Where there is not one for each point.
+    /// Returns an error if there is not one for each point.
     pub fn with_colors(mut self, colors: Vec<[u8; 4]>) -> Result<Self, LengthMismatch> {
         self.check("colors", colors.len())?;
         self.colors = Some(Arc::new(colors));
@@ -62,7 +62,7 @@ impl Cloud {
     /// Adds integer labels, one a point. Our own files use [`Cloud::FRUIT`] and its neighbors.
     ///
     /// # Errors
-    /// Where there is not one for each point.
+    /// Returns an error if there is not one for each point.
     pub fn with_labels(mut self, labels: Vec<i32>) -> Result<Self, LengthMismatch> {
         self.check("labels", labels.len())?;
         self.labels = Some(Arc::new(labels));
@@ -76,7 +76,7 @@ impl Cloud {
     /// The label of a leaf in front of the fruit.
     pub const LEAF: i32 = 2;
 
-    /// Adds columns that are one a point by construction.
+    /// Adds columns that have one row a point by construction.
     pub(crate) fn with_columns(
         mut self,
         normals: Option<Vec<Vec3>>,
@@ -102,12 +102,12 @@ impl Cloud {
         }
     }
 
-    /// How many points there are.
+    /// The number of points.
     pub fn len(&self) -> usize {
         self.positions.len()
     }
 
-    /// Whether there is no point at all.
+    /// Whether there are no points.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }
@@ -117,17 +117,17 @@ impl Cloud {
         &self.positions
     }
 
-    /// The positions, to be kept beside the cloud without a copy.
+    /// A shared handle to the positions, which are not copied.
     pub fn shared_positions(&self) -> Arc<Vec<DVec3>> {
         self.positions.clone()
     }
 
-    /// The colors, likewise.
+    /// A shared handle to the colors.
     pub fn shared_colors(&self) -> Option<Arc<Vec<[u8; 4]>>> {
         self.colors.clone()
     }
 
-    /// The labels, likewise.
+    /// A shared handle to the labels.
     pub fn shared_labels(&self) -> Option<Arc<Vec<i32>>> {
         self.labels.clone()
     }
@@ -160,7 +160,7 @@ impl Cloud {
     /// The points at `indices`, in that order, with all their columns.
     ///
     /// # Panics
-    /// Where an index is not below [`Cloud::len`].
+    /// Panics if an index is not below [`Cloud::len`].
     #[must_use]
     pub fn select(&self, indices: &[usize]) -> Self {
         fn pick<T: Copy>(column: &[T], indices: &[usize]) -> Vec<T> {

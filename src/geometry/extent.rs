@@ -1,4 +1,4 @@
-//! How large a cloud is, without letting a stray point decide.
+//! The size of a cloud, from all points or without its strays.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// The box that holds all points; `None` where there are none.
+    /// The box that holds all points; `None` if there are none.
     pub fn of(points: &[DVec3]) -> Option<Self> {
         let first = *points.first()?;
         Some(points.iter().fold(
@@ -27,8 +27,8 @@ impl Extent {
         ))
     }
 
-    /// The box between the 2nd and the 98th percentile of each coordinate: what the bulk of the
-    /// points spans, whatever a few strays do. `None` where there are no points.
+    /// The box between the 2nd and the 98th percentile of each coordinate, which a few strays do not
+    /// change. `None` if there are no points.
     pub fn robust(points: &[DVec3]) -> Option<Self> {
         if points.is_empty() {
             return None;
@@ -51,12 +51,12 @@ impl Extent {
         })
     }
 
-    /// Its edges' lengths.
+    /// The lengths of the edges.
     pub fn size(&self) -> DVec3 {
         self.max - self.min
     }
 
-    /// Its middle.
+    /// The center of the box.
     pub fn center(&self) -> DVec3 {
         0.5 * (self.min + self.max)
     }

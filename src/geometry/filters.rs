@@ -8,12 +8,12 @@ use crate::neighbors::Neighbors;
 use crate::parallel::map_pieces;
 use crate::parallel::{Cancelled, Watch};
 
-/// The indices of the points that are no outliers: those whose mean distance to their `neighbors`
+/// Returns the indices of the points that are not outliers, ascending: those whose mean distance to their `neighbors`
 /// nearest other points is at most the cloud's mean of that distance plus `std_ratio` times its
-/// standard deviation. Ascending.
+/// standard deviation.
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
+/// Returns [`Cancelled`] if the watch cancels the work.
 pub fn statistical_inliers(
     points: &[DVec3],
     neighbors: NonZeroUsize,
@@ -32,7 +32,7 @@ pub fn statistical_inliers(
             met += taken;
             sum += taken as f64 * n.distance_squared.sqrt();
         }
-        // The point met itself, at distance zero.
+        // The point itself is among them, at distance zero.
         if met > 1 { sum / (met - 1) as f64 } else { 0.0 }
     };
     let means = map_pieces(points.len(), 512, watch, |range| {

@@ -1,7 +1,7 @@
-//! Points, planes and lines, and what can be computed from them without knowing the method.
+//! Points, planes and lines, and computations on them that do not depend on the method.
 //!
-//! Positions are `f64` in the file's own unit and frame, so that nothing has to be moved back
-//! before it is shown; whoever wants `f32` (the GPU, a search) subtracts a nearby origin first.
+//! Positions are `f64` in the file's own unit and frame, so that results need no transformation before
+//! they are shown; code that needs `f32` (the GPU, a search) subtracts a nearby origin first.
 
 mod cloud;
 mod extent;

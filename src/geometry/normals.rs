@@ -15,16 +15,16 @@ use crate::neighbors::Neighbors;
 use crate::parallel::map_pieces;
 use crate::parallel::{Cancelled, Watch};
 
-/// Points whose neighborhoods are fitted between two looks at the watch: a few milliseconds.
+/// Points whose neighborhoods are fitted between two checks of the watch: a few milliseconds.
 const PIECE: usize = 512;
 
 /// Estimates a unit normal at each point: the direction in which its `k` nearest points vary least,
 /// the point itself among them (Eq. 2), turned towards `viewpoint`.
 ///
-/// `None` where the neighborhood is degenerate: fewer than three distinct points, or all on a line.
+/// `None` if the neighborhood is degenerate: fewer than three distinct points, or all on a line.
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
+/// Returns [`Cancelled`] if the watch cancels the work.
 pub fn estimate_normals(
     points: &[DVec3],
     k: NonZeroUsize,
@@ -36,7 +36,7 @@ pub fn estimate_normals(
     };
     // Neighbors of close places lie in the same memory.
     let pieces = map_pieces(neighbors.distinct(), PIECE, watch, |range| {
-        // The widest vector instructions that this machine has. They round like all others.
+        // Built for the widest vector instructions that this machine has. All round alike.
         pulp::Arch::new().dispatch(FitNormals {
             points,
             neighbors: &neighbors,

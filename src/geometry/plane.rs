@@ -1,4 +1,4 @@
-//! A plane, and the mirror it is.
+//! A plane, and reflections in it.
 
 use glam::DVec3;
 

@@ -1,22 +1,22 @@
-//! Some of a cloud's points, by their indices.
+//! A set of a cloud's points, by their indices.
 
 use std::fmt;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 
 /// Indices of points, each once and in ascending order. It is written as ranges, `5-90,92`: points that
-/// are picked together mostly stand together in their file.
+/// are selected together are mostly consecutive in their file.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct PointSet(Vec<u32>);
 
 impl PointSet {
-    /// The points whose mask is set. Points from [`u32::MAX`] on are left out: no cloud has so many.
+    /// The points whose flag is set. Points from [`u32::MAX`] on are left out: no cloud has so many.
     pub fn of_mask(mask: &[bool]) -> Self {
         let set = mask.iter().enumerate().filter(|(_, is_in)| **is_in);
         Self(set.filter_map(|(i, _)| u32::try_from(i).ok()).collect())
     }
 
-    /// One flag a point of a cloud of so many.
+    /// A flag for each point of a cloud of `points` points.
     pub fn mask(&self, points: usize) -> Vec<bool> {
         let mut mask = vec![false; points];
         for i in self.iter().take_while(|&i| i < points) {
@@ -30,17 +30,17 @@ impl PointSet {
         self.0.iter().map(|&i| i as usize)
     }
 
-    /// How many there are.
+    /// The number of points in the set.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether there is none.
+    /// Whether the set is empty.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Whether a point is among them.
+    /// Whether the set contains a point.
     pub fn contains(&self, index: usize) -> bool {
         u32::try_from(index).is_ok_and(|i| self.0.binary_search(&i).is_ok())
     }
@@ -95,7 +95,7 @@ impl std::str::FromStr for PointSet {
     }
 }
 
-/// Points that nobody picks at a time.
+/// More points than any selection has.
 const MOST: u32 = 200_000_000;
 
 impl Serialize for PointSet {

@@ -1,4 +1,4 @@
-//! How points are spread: their mean, and the axes along which they vary.
+//! The spread of points: their mean, and the axes along which they vary.
 
 use glam::DVec3;
 
@@ -16,8 +16,8 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// The spread of points with weights (Eq. 2 divides by their sum), or `None` where the weights
-    /// sum to zero. The points are walked twice, so that a small spread far from the origin keeps
+    /// The spread of points with weights (Eq. 2 divides by their sum), or `None` if the weights
+    /// sum to zero. There are two passes over the points, so that a small spread far from the origin keeps
     /// its digits.
     pub fn of(points: impl Iterator<Item = (DVec3, f64)> + Clone) -> Option<Self> {
         let (sum, weight) = points
@@ -46,7 +46,7 @@ impl Spread {
         })
     }
 
-    /// The spread of points that all weigh the same; `None` where there are none.
+    /// The spread of points of equal weight; `None` if there are none.
     pub fn of_points(points: &[DVec3]) -> Option<Self> {
         Self::of(points.iter().map(|&p| (p, 1.0)))
     }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// The unit that a file's coordinates are in. The method's distances are centimeters (Eq. 15: τ is
-/// in centimeters per radian), so every stage that adds a distance asks for it.
+/// in centimeters per radian), so every stage that adds distances takes the unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Unit {
@@ -22,10 +22,10 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// All of them, largest first.
+    /// All units, largest first.
     pub const ALL: [Self; 3] = [Self::Meter, Self::Centimeter, Self::Millimeter];
 
-    /// How many centimeters one unit is.
+    /// The length of one unit in centimeters.
     pub fn in_cm(self) -> f64 {
         match self {
             Self::Meter => 100.0,

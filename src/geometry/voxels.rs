@@ -1,4 +1,4 @@
-//! A voxel grid: the second filter of the paper's data (§ 2.1), and a sample of a cloud that is too
+//! A voxel grid: the second filter of the paper's data (§ 2.1), and a way to thin a cloud that is too
 //! large to be analyzed whole.
 
 use glam::{DVec3, I64Vec3, Vec3};
@@ -7,9 +7,9 @@ use super::Cloud;
 use crate::parallel::sort_unstable;
 use crate::parallel::{Cancelled, Watch};
 
-/// One point for each occupied cube of edge `edge` (the points' unit, positive): the mean position
-/// of the points in it, their mean normal and color, and their most frequent label (the lowest of
-/// equals). Cubes are anchored at the origin, so that a cloud's neighbor in a set is cut alike; they
+/// Thins a cloud to one point for each occupied cube of edge `edge` (the points' unit, positive): the mean
+/// position of the points in it, their mean normal and color, and their most frequent label (the lowest of
+/// equals). Cubes are anchored at the origin, so that the clouds of a set are cut alike; they
 /// come in the order of their lowest point index.
 pub fn voxel_grid(cloud: &Cloud, edge: f64) -> Cloud {
     let points = cloud.positions();
@@ -57,10 +57,10 @@ fn cell(p: DVec3, edge: f64) -> I64Vec3 {
     (p / edge).floor().as_i64vec3()
 }
 
-/// Bits of a cell's number along an axis, where three of them make one number.
+/// The bits of a cell's number along an axis, if three of them make one key.
 const BITS: u32 = 21;
 
-/// The points' indices, cell by cell and ascending in each, and where in them each cell starts, with
+/// The points' indices, cell by cell and ascending in each, and the start of each cell among them, with
 /// the end of the last.
 fn by_cell(points: &[DVec3], edge: f64) -> (Vec<usize>, Vec<usize>) {
     let (mut low, mut high) = (I64Vec3::MAX, I64Vec3::MIN);
@@ -81,7 +81,7 @@ fn by_cell(points: &[DVec3], edge: f64) -> (Vec<usize>, Vec<usize>) {
     }
 }
 
-/// All indices in an order in which points that lie close together stand close together: cell by cell.
+/// All indices, cell by cell, so that points that lie close together are close in the order.
 pub(crate) fn near_one_another(points: &[DVec3], edge: f64) -> Vec<usize> {
     by_cell(points, edge).0
 }
@@ -100,13 +100,13 @@ fn sorted<K: Ord + Send>(keys: impl Iterator<Item = K>) -> (Vec<usize>, Vec<usiz
 }
 
 /// An edge, in the points' unit, with which a voxel grid leaves at most `most` of the points, and not
-/// many fewer where their number allows it. `None` where no edge is needed or none is enough: around
+/// many fewer where their number allows it. `None` if no edge is needed, or if none is enough: around
 /// the origin eight cells remain however large they are.
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
+/// Returns [`Cancelled`] if the watch cancels the work.
 pub fn voxel_edge_for(points: &[DVec3], most: usize, watch: &dyn Watch) -> Result<Option<f64>, Cancelled> {
-    /// A grid is tried so often at most; a surface takes about four.
+    /// The most grids that are tried; a surface takes about four.
     const TRIES: usize = 40;
     let (low, high) = points
         .iter()
@@ -129,7 +129,7 @@ pub fn voxel_edge_for(points: &[DVec3], most: usize, watch: &dyn Watch) -> Resul
         let count = occupied(points, edge, 2 * most);
         if count <= most {
             enough = Some(edge);
-            // Cells much smaller than a thousandth of a millionth part hold no more points apart.
+            // Cells much smaller than a billionth of the extent separate no more points.
             if count as f64 >= 0.85 * most as f64 || edge < 1e-9 * extent {
                 break;
             }
@@ -155,8 +155,8 @@ pub fn voxel_edge_for(points: &[DVec3], most: usize, watch: &dyn Watch) -> Resul
     Ok(enough)
 }
 
-/// How many cells of the edge hold points; once there are more than `most`, that many will do. Cells
-/// that are mistaken for others are fewer than one in a billion.
+/// The number of cells of the edge that hold points; counting stops above `most`. Fewer than one cell in
+/// a billion is mistaken for another.
 fn occupied(points: &[DVec3], edge: f64, most: usize) -> usize {
     let slots = (2 * most).next_power_of_two().max(16);
     let mut table = vec![0u64; slots];

@@ -16,7 +16,7 @@ use pulp::Simd;
 
 use super::Surface;
 use crate::geometry::{Plane, angles_between_directions_rad};
-use crate::neighbors::{BLOCK, Nearest, Neighbors, Together};
+use crate::neighbors::{BLOCK, BatchSearch, BlockResult, Neighbors};
 
 /// Points that are reflected together: as many as the widest vectors hold numbers of double precision.
 const LANES: usize = 8;
@@ -151,8 +151,8 @@ impl<T: PartnerSink> pulp::WithSimd for FindPartners<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> T {
-        let mut together = Together::new(self.neighbors, simd);
-        let mut nearest = Nearest::NONE;
+        let mut search = BatchSearch::new(self.neighbors, simd);
+        let mut nearest = BlockResult::default();
         let mut waiting = Waiting {
             count: 0,
             point: [0; BLOCK + LANES],
@@ -196,7 +196,7 @@ impl<T: PartnerSink> pulp::WithSimd for FindPartners<'_, T> {
                 }
             }
             if waiting.count >= BLOCK {
-                self.find_block(&mut together, &mut nearest, &waiting, BLOCK);
+                self.find_block(&mut search, &mut nearest, &waiting, BLOCK);
                 waiting.point.copy_within(BLOCK.., 0);
                 for e in 0..3 {
                     waiting.reflected[e].copy_within(BLOCK.., 0);
@@ -211,7 +211,7 @@ impl<T: PartnerSink> pulp::WithSimd for FindPartners<'_, T> {
                 let last = waiting.reflected[e][size - 1];
                 waiting.reflected[e][size..BLOCK].fill(last);
             }
-            self.find_block(&mut together, &mut nearest, &waiting, size);
+            self.find_block(&mut search, &mut nearest, &waiting, size);
         }
         self.sink
     }
@@ -222,12 +222,12 @@ impl<T: PartnerSink> FindPartners<'_, T> {
     #[inline(always)]
     fn find_block<S: Simd>(
         &mut self,
-        together: &mut Together<'_, S>,
-        nearest: &mut Nearest,
+        search: &mut BatchSearch<'_, S>,
+        nearest: &mut BlockResult,
         waiting: &Waiting,
         size: usize,
     ) {
-        together.answer(&first_block(&waiting.reflected), size, nearest);
+        search.find(&first_block(&waiting.reflected), size, nearest);
         let first = self.neighbors.first();
         let (mut partner, mut distance) = ([0; BLOCK], [0.0; BLOCK]);
         let mut b = [[0.0; BLOCK]; 3];

@@ -1,70 +1,89 @@
-//! One number a query of a block, side by side, so that vector instructions take many at once.
+//! Numbers side by side, so that vector instructions take many at once, and bounds on what rounding may
+//! change in them.
 
-use pulp::{Simd, WithSimd};
+use pulp::Simd;
 
-/// Queries in a block: twice what the widest vectors hold of single precision.
+/// The queries of a block: twice as many as the widest vectors hold numbers of single precision.
 pub(crate) const BLOCK: usize = 32;
 
-/// What one number is for each query.
-#[derive(Debug, Clone, Copy)]
+/// The bound on rounding of products of two lengths that are known to single precision, in units of
+/// both: some 25 roundings of 2^-24, and as much again for safety.
+pub(super) const ROUNDING: f32 = 3e-6;
+/// The same for sums of what was rounded before, in units of their size: four roundings.
+pub(super) const SUM_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
+/// The bound on rounding of squared distances up to `size` squared that are computed in double precision (32
+/// roundings of 2^-53) and on what is lost where products leave single precision's range: infinite for
+/// products that are too large.
+#[inline(always)]
+pub(super) fn rounding_of_squared(size: f32) -> f32 {
+    if size * size < HUGE {
+        size * size * (1.0 / (1u64 << 48) as f32) + 1e-37
+    } else {
+        f32::INFINITY
+    }
+}
+
+/// Squares that are larger could leave single precision's range.
+pub(super) const HUGE: f32 = 1e36;
+
+/// A number for each query of a block, or for each point of a leaf.
+#[derive(Debug, Clone, Copy, Default)]
 // No vector straddles two lines of the cache.
 #[repr(C, align(64))]
 pub(super) struct Lanes(pub(super) [f32; BLOCK]);
 
 impl Lanes {
-    pub(super) const ZERO: Self = Self::all(0.0);
-    pub(super) const INFINITY: Self = Self::all(f32::INFINITY);
-
-    const fn all(value: f32) -> Self {
-        Self([value; BLOCK])
-    }
-
-    /// Vector by vector.
+    /// The numbers as vectors.
     #[inline(always)]
-    pub(super) fn parts<S: Simd>(&self) -> &[S::f32s] {
+    pub(super) fn vectors<S: Simd>(&self) -> &[S::f32s] {
         S::as_simd_f32s(&self.0).0
     }
 
-    /// Vector by vector.
+    /// The numbers as vectors.
     #[inline(always)]
-    pub(super) fn parts_mut<S: Simd>(&mut self) -> &mut [S::f32s] {
+    pub(super) fn vectors_mut<S: Simd>(&mut self) -> &mut [S::f32s] {
         S::as_mut_simd_f32s(&mut self.0).0
     }
 
-    /// The sum of all.
+    /// The sum of all numbers.
     #[inline(always)]
     pub(super) fn sum<S: Simd>(&self, simd: S) -> f32 {
         let mut sum = simd.splat_f32s(0.0);
-        for &part in self.parts::<S>() {
-            sum = simd.add_f32s(sum, part);
+        for &vector in self.vectors::<S>() {
+            sum = simd.add_f32s(sum, vector);
         }
         simd.reduce_sum_f32s(sum)
     }
 
-    /// The greatest of all and zero.
+    /// The least of all numbers.
+    #[inline(always)]
+    pub(super) fn least<S: Simd>(&self, simd: S) -> f32 {
+        let mut least = simd.splat_f32s(f32::INFINITY);
+        for &vector in self.vectors::<S>() {
+            least = simd.min_f32s(least, vector);
+        }
+        simd.reduce_min_f32s(least)
+    }
+
+    /// The greatest of all numbers and zero.
     #[inline(always)]
     pub(super) fn greatest<S: Simd>(&self, simd: S) -> f32 {
         let mut greatest = simd.splat_f32s(0.0);
-        for &part in self.parts::<S>() {
-            greatest = simd.max_f32s(greatest, part);
+        for &vector in self.vectors::<S>() {
+            greatest = simd.max_f32s(greatest, vector);
         }
         simd.reduce_max_f32s(greatest)
     }
 }
 
-/// Which of the leaves that were looked into, for each query.
-#[derive(Debug, Clone, Copy)]
-#[repr(C, align(64))]
-pub(super) struct Looks(pub(super) [u32; BLOCK]);
-
-impl Looks {
-    pub(super) const FIRST: Self = Self([0; BLOCK]);
-}
-
-/// Runs what is seldom wanted: built for the same vector instructions, but where it does not crowd what
-/// is wanted often.
-#[cold]
-#[inline(never)]
-pub(super) fn seldom<S: Simd, W: WithSimd>(simd: S, work: W) -> W::Output {
-    simd.vectorize(work)
+/// `a * b + c`, rounded once where the machine can. To be used only under a bound on rounding: the last
+/// digit depends on the machine.
+#[inline(always)]
+pub(super) fn times_plus<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
+    // All machines with vectors that wide can.
+    if S::F32_LANES >= 8 || cfg!(target_arch = "aarch64") {
+        a.mul_add(b, c)
+    } else {
+        a * b + c
+    }
 }

@@ -1,59 +1,47 @@
-//! The points of a leaf, coordinate by coordinate, in double and in single precision.
+//! The points of a leaf in single precision, and their bounding box.
 
 use glam::DVec3;
+
+use super::boxes::OrientedBox;
 
 /// Points in a leaf.
 pub(super) const LEAF: usize = 32;
 
-/// Points of a leaf, coordinate by coordinate; what is left over lies at infinity.
-pub(super) type Leaf = [[f64; LEAF]; 3];
-
-/// The same points in single precision, seen from the leaf's center, in the tree's frame.
+/// The points of a leaf, coordinate by coordinate, seen from the center of their bounding box.
 #[derive(Debug, Clone, Copy)]
 // No vector straddles two lines of the cache.
 #[repr(C, align(64))]
-pub(super) struct Near {
-    /// -2 times their coordinates.
+pub(super) struct Leaf {
+    /// -2 times the coordinates.
     pub(super) minus_twice: [[f32; LEAF]; 3],
-    /// Their squared distances from the center; what is left over lies at infinity.
+    /// The squared distances from the center. Missing points of the last leaf lie at infinity.
     pub(super) squared: [f32; LEAF],
-    /// The largest distance from the center, or a little more.
+    /// The axes and the half extents of the bounding box.
+    pub(super) axes: [[f32; 3]; 3],
+    pub(super) half: [f32; 3],
+    /// At least the largest distance from the center of any point, and of any corner of the box.
     pub(super) radius: f32,
-    /// In the tree's frame.
     pub(super) center: [f64; 3],
 }
 
-impl Near {
-    pub(super) const NONE: Self = Self {
-        minus_twice: [[0.0; LEAF]; 3],
-        squared: [f32::INFINITY; LEAF],
-        radius: 0.0,
-        center: [0.0; 3],
-    };
-
-    /// Of points in the tree's frame.
-    pub(super) fn new(points: &[DVec3]) -> Self {
-        let mut near = Self::NONE;
-        let (low, high) = extent(points);
-        let center = 0.5 * (low + high);
-        near.center = center.to_array();
+impl Leaf {
+    /// A leaf of `points`, at most [`LEAF`], within their bounding box.
+    pub(super) fn new(points: &[DVec3], bounds: &OrientedBox) -> Self {
+        let mut leaf = Self {
+            minus_twice: [[0.0; LEAF]; 3],
+            squared: [f32::INFINITY; LEAF],
+            axes: bounds.axes.map(|axis| axis.to_array()),
+            half: bounds.half.as_vec3().to_array(),
+            radius: bounds.half.length() as f32 * (1.0 + 1e-6),
+            center: bounds.center.to_array(),
+        };
         for (i, &point) in points.iter().enumerate() {
-            let p = (point - center).as_vec3();
+            let p = (point - bounds.center).as_vec3();
             for e in 0..3 {
-                near.minus_twice[e][i] = -2.0 * p[e];
+                leaf.minus_twice[e][i] = -2.0 * p[e];
             }
-            near.squared[i] = p.as_dvec3().length_squared() as f32;
-            near.radius = near.radius.max(p.length());
+            leaf.squared[i] = p.as_dvec3().length_squared() as f32;
         }
-        near.radius *= 1.0 + 1e-6;
-        near
+        leaf
     }
-}
-
-/// The lowest and the highest of each coordinate; there must be points.
-pub(super) fn extent(points: &[DVec3]) -> (DVec3, DVec3) {
-    let first = points[0];
-    points
-        .iter()
-        .fold((first, first), |(low, high), &p| (low.min(p), high.max(p)))
 }

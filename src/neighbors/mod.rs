@@ -1,45 +1,73 @@
-//! Nearest neighbors, exact.
+//! Exact nearest neighbors of many queries that lie close together but far from the points.
 //!
-//! The tree is our own, since what the method asks is unusual: points mirrored away from a surface
-//! are far from it and nearly as far from much of it, and each asks for almost what the one before
-//! it asked for. See `boxes.rs` for the first, [`Neighbors::nearest_of_each`] for the second.
+//! # Why not a k-d tree
+//!
+//! A k-d tree answers a query by going down to the cell that holds it and back up, into every cell that is
+//! nearer than the best point so far. That is quick where the query lies among the points: few cells are
+//! nearer. The method's queries do not. They are the points of a surface mirrored in a plane, and most planes
+//! carry them well off the surface. From there a large part of the surface is nearly as far as its nearest
+//! point, and the cells of a k-d tree, whose sides follow the coordinate axes, stick out of a slanted surface by
+//! about their own size: hundreds of them are nearer than the nearest point. In addition each query
+//! goes that way alone, though the one before it has just gone nearly the same.
+//!
+//! # What is done instead
+//!
+//! **Oriented boxes.** Points are sorted into leaves of 32 by halving along the longest side, as for a k-d tree.
+//! But leaves, and nodes of 16 leaves, of 256 leaves and so on, are bounded by boxes along the principal axes of
+//! their points. Such a box is as thin as the surface is within it, and from afar its distance is nearly that
+//! of its points. The boxes of a node's 16 children are tested at a time, one in each lane of a vector
+//! (`boxes`).
+//!
+//! **Blocks of queries.** Queries are answered 32 at a time (`batch`). A block traverses the tree once: from its
+//! center, with a reach that covers what every query has found (`Block::update_reach`). It starts with the
+//! nearest point of the query before it, so that most of the tree is out of reach from the first. Leaves that
+//! are hardly farther than what was found are looked into at once; the others wait, and are first tested
+//! against all 32 queries, by which time most of them are out of reach.
+//!
+//! **Single precision, with a bound.** Squared distances of 32 queries from 32 points take a few hundred vector
+//! instructions in single precision. Of a large squared distance it keeps too few digits to tell neighbors
+//! apart, so what is large and common to all candidates is left out: distances are kept as what they
+//! exceed |q|² and the squared distance of the starting point by (`block`). A bound on all rounding makes each
+//! of them an interval. Only leaves whose interval reaches below the least upper end may hold the nearest point;
+//! mostly that is a single leaf, and in it a single point. Where it is not, as with points that are equally far,
+//! the few candidates are compared in double precision. Every answer is thus the one that double precision
+//! gives for all points, whatever the vector instructions of the machine, and of points that are equally far it
+//! is the one with the lowest index.
+//!
+//! The bound grows with the size of boxes and leaves, and with their distance in single precision's last digit
+//! only. Where rounding leaves no number, every comparison counts it as within reach. Hence clumps, strays
+//! and huge coordinates make a search slower, never wrong.
+//!
+//! Exact duplicates are removed first: no box can tell them apart.
 
 #![allow(
     clippy::inline_always,
-    reason = "only what is inlined is built for each kind of vector instructions"
-)]
-#![allow(
     clippy::needless_range_loop,
-    reason = "loops over lanes, of several arrays at a time"
-)]
-#![allow(
     clippy::neg_cmp_op_on_partial_ord,
-    reason = "where rounding left no number, a box must be looked into"
+    reason = "only what is inlined is built for each kind of vector instructions; loops over lanes, of several \
+              arrays at a time; NaN, where rounding left no number, counts as within reach"
 )]
 
-mod around;
+mod batch;
 mod block;
 mod boxes;
 mod eigen;
-mod gaps;
 mod lanes;
 mod leaf;
+mod nearest_places;
 mod order;
-mod places;
-mod together;
+mod traversal;
 mod tree;
-mod walk;
 
 use glam::DVec3;
-use pulp::{Scalar, Simd};
+use pulp::Simd;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
+pub(crate) use batch::{BatchSearch, BlockResult};
 pub(crate) use eigen::symmetric_eigen;
 pub(crate) use lanes::BLOCK;
-use leaf::LEAF;
-use places::distinct_places;
-pub(crate) use together::{Nearest, Together};
+use order::spatial_order;
 use tree::Tree;
-use walk::Walk;
 
 /// One place in space and the points that lie exactly there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +76,7 @@ pub struct Neighbor {
     pub index: usize,
     /// The squared distance from the query, in the square of the points' unit.
     pub distance_squared: f64,
-    /// How many points lie exactly here.
+    /// The number of points that lie exactly here.
     pub multiplicity: usize,
 }
 
@@ -56,80 +84,64 @@ pub struct Neighbor {
 ///
 /// Exact duplicates are stored once with their number, since no box can tell them apart, and depth
 /// cameras make many. The answers count each of them.
+#[derive(Debug)]
 pub struct Neighbors {
     tree: Tree,
-    /// For each place, in the tree's order, its lowest point index.
+    /// The tree's length of a length of one: a power of two, so that nothing is rounded.
+    scale: f64,
+    /// The lowest point index of each place, in the tree's order.
     first: Vec<u32>,
-    /// For each place, where its points start in `order`; then the number of points.
+    /// Where the points of each place start in `order`, and the number of points at the end.
     start: Vec<u32>,
     /// All points, place by place.
     order: Vec<u32>,
 }
 
-impl std::fmt::Debug for Neighbors {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Neighbors")
-            .field("places", &self.first.len())
-            .finish_non_exhaustive()
-    }
-}
-
 impl Neighbors {
-    /// Indexes `points`, which must be finite. `None` where there are none, or more than
-    /// [`u32::MAX`] of them.
+    /// Indexes `points`, which must be finite. `None` if there are none, or more than [`u32::MAX`] of
+    /// them.
     pub fn new(points: &[DVec3]) -> Option<Self> {
         if points.is_empty() || u32::try_from(points.len()).is_err() {
             return None;
         }
-        let (mut first, place_of) = distinct_places(points);
-        if first.len() == points.len() {
-            let (tree, order) = Tree::new(points);
-            let start = (0..=points.len() as u32).collect();
-            return Some(Self {
-                tree,
-                first: order.clone(),
-                start,
-                order,
-            });
-        }
-        let places: Vec<DVec3> = first.iter().map(|&i| points[i as usize]).collect();
-        let (tree, places_in_order) = Tree::new(&places);
+        let scale = scale_of(points);
+        let (lowest, place_of) = distinct_places(points);
+        let places: Vec<DVec3> = lowest.iter().map(|&i| points[i as usize] * scale).collect();
+        let place_order = spatial_order(&places);
+        let in_order: Vec<DVec3> = place_order.iter().map(|&place| places[place as usize]).collect();
         let mut position = vec![0; places.len()];
-        for (i, &place) in places_in_order.iter().enumerate() {
-            position[place as usize] = i as u32;
+        for (i, &place) in place_order.iter().enumerate() {
+            position[place as usize] = i;
         }
         let mut start = vec![0; places.len() + 1];
         for &place in &place_of {
-            start[position[place as usize] as usize + 1] += 1;
+            start[position[place as usize] + 1] += 1;
         }
         for i in 1..start.len() {
             start[i] += start[i - 1];
         }
         let mut next = start.clone();
         let mut order = vec![0; points.len()];
-        for (i, &place) in place_of.iter().enumerate() {
-            let slot = &mut next[position[place as usize] as usize];
-            order[*slot as usize] = i as u32;
+        for (i, &place) in (0..).zip(&place_of) {
+            let slot = &mut next[position[place as usize]];
+            order[*slot as usize] = i;
             *slot += 1;
         }
-        first = places_in_order
-            .iter()
-            .map(|&place| first[place as usize])
-            .collect();
         Some(Self {
-            tree,
-            first,
+            tree: Tree::new(&in_order),
+            scale,
+            first: place_order.iter().map(|&place| lowest[place as usize]).collect(),
             start,
             order,
         })
     }
 
-    /// How many distinct places the points occupy.
+    /// The number of distinct places that the points occupy.
     pub fn distinct(&self) -> usize {
         self.first.len()
     }
 
-    /// The indices of all points in an order in which each lies close to the one before it.
+    /// The indices of all points, in an order in which each lies close to the one before it.
     pub fn order(&self) -> &[u32] {
         &self.order
     }
@@ -137,73 +149,13 @@ impl Neighbors {
     /// The place nearest to `query`, which must be finite; of several as near the one of the lowest
     /// index.
     pub fn nearest(&self, query: DVec3) -> Neighbor {
-        let start = self.tree.descend(self.tree.in_frame(query).to_array());
-        let (distance_squared, position) = self.nearest_from::<Scalar>(start, query);
-        self.neighbor(position, distance_squared)
+        self.nearest_of_each(&[query])[0]
     }
 
-    /// The squared distance and the position of the nearest place, from a leaf that holds places nearby.
-    #[inline(always)]
-    fn nearest_from<S: Simd>(&self, start: usize, query: DVec3) -> (f64, usize) {
-        // The first place there stands in where every distance overflows.
-        let mut best = (f64::INFINITY, self.tree.positions(start).start);
-        self.look_into(start, query, &mut best);
-        let (from, mut reach) = self.tree.single(self.tree.in_frame(query).to_array(), best.0);
-        let mut walk = Walk::new();
-        walk.begin(&self.tree, from);
-        while let Some((leaf, _)) = walk.next::<S, true>(&self.tree, reach) {
-            if leaf != start {
-                self.look_into(leaf, query, &mut best);
-                reach = self.tree.reach(from.reference, best.0);
-            }
-        }
-        best
-    }
-
-    /// The same where it is known to be in one of `leaves`.
-    #[inline(always)]
-    fn nearest_in(&self, leaves: impl Iterator<Item = usize>, query: DVec3) -> (f64, usize) {
-        let mut best = (f64::INFINITY, 0);
-        for leaf in leaves {
-            if best.0 == f64::INFINITY {
-                best.1 = self.tree.positions(leaf).start;
-            }
-            self.look_into(leaf, query, &mut best);
-        }
-        best
-    }
-
-    #[inline(always)]
-    fn look_into(&self, leaf: usize, query: DVec3, best: &mut (f64, usize)) {
-        let distances = self.tree.leaf_distances_squared(leaf, query);
-        // Halved again and again, as vectors can.
-        let mut least = distances;
-        let mut half = LEAF / 2;
-        while half > 0 {
-            for i in 0..half {
-                let (a, b) = (least[i], least[i + half]);
-                least[i] = if b < a { b } else { a };
-            }
-            half /= 2;
-        }
-        let least = least[0];
-        let mut equal = 0u32;
-        for i in 0..LEAF {
-            equal |= u32::from(distances[i] == least) << i;
-        }
-        // The first of equals is the lowest. Where all overflow none may be equal, or one that is
-        // left over.
-        let position = self.tree.positions(leaf).start + equal.trailing_zeros() as usize;
-        if least < best.0
-            || (least == best.0 && least < f64::INFINITY && self.first[position] < self.first[best.1])
-        {
-            *best = (least, position);
-        }
-    }
-
-    /// [`Neighbors::nearest`] of each query, in their order. Queries that lie close to those before
-    /// them, as points in [`Neighbors::order`] do, are answered several times sooner than one by one:
-    /// they walk through the tree together.
+    /// The nearest place of each query, as [`Neighbors::nearest`] has it, in the order of the queries.
+    ///
+    /// Queries that lie close to those before them, as points in [`Neighbors::order`] do, are answered
+    /// many times sooner than one by one: they search the tree together.
     pub fn nearest_of_each(&self, queries: &[DVec3]) -> Vec<Neighbor> {
         pulp::Arch::new().dispatch(NearestOfEach { index: self, queries })
     }
@@ -227,6 +179,38 @@ impl Neighbors {
     }
 }
 
+/// The lowest point index of each distinct place, ascending, and the place of each point.
+fn distinct_places(points: &[DVec3]) -> (Vec<u32>, Vec<u32>) {
+    let mut known = FxHashMap::with_capacity_and_hasher(points.len(), FxBuildHasher);
+    let mut lowest = Vec::with_capacity(points.len());
+    let place = |(i, &p): (u32, &DVec3)| {
+        // Adding zero turns -0.0 into 0.0, so that equal coordinates have equal bits.
+        let bits = (p + 0.0).to_array().map(f64::to_bits);
+        *known.entry(bits).or_insert_with(|| {
+            lowest.push(i);
+            lowest.len() as u32 - 1
+        })
+    };
+    let place_of = (0..).zip(points).map(place).collect();
+    (lowest, place_of)
+}
+
+/// A power of two that brings the median step from a point to the next, as they are stored, to about one:
+/// far from where squares leave single precision's range, whatever the unit and however far a few strays.
+fn scale_of(points: &[DVec3]) -> f64 {
+    let pairs = points.windows(2).step_by(points.len().div_ceil(1000));
+    let mut steps: Vec<f64> = pairs
+        .map(|pair| (pair[1] - pair[0]).abs().max_element())
+        .filter(|step| step.is_normal())
+        .collect();
+    if steps.is_empty() {
+        return 1.0;
+    }
+    let middle = steps.len() / 2;
+    let (_, &mut median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
+    2f64.powi(-(median.log2() as i32).clamp(-500, 500))
+}
+
 /// [`Neighbors::nearest_of_each`] by the widest vector instructions that this machine has.
 struct NearestOfEach<'a> {
     index: &'a Neighbors,
@@ -239,8 +223,8 @@ impl pulp::WithSimd for NearestOfEach<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Vec<Neighbor> {
         let mut all = Vec::with_capacity(self.queries.len());
-        let mut together = Together::new(self.index, simd);
-        let mut nearest = Nearest::NONE;
+        let mut search = BatchSearch::new(self.index, simd);
+        let mut result = BlockResult::default();
         for queries in self.queries.chunks(BLOCK) {
             let mut columns = [[0.0; BLOCK]; 3];
             for i in 0..BLOCK {
@@ -249,10 +233,10 @@ impl pulp::WithSimd for NearestOfEach<'_> {
                     columns[e][i] = query[e];
                 }
             }
-            together.answer(&columns, queries.len(), &mut nearest);
+            search.find(&columns, queries.len(), &mut result);
             for i in 0..queries.len() {
-                let (position, distance) = (nearest.position[i] as usize, nearest.distance_squared[i]);
-                all.push(self.index.neighbor(position, distance));
+                let position = result.position[i] as usize;
+                all.push(self.index.neighbor(position, result.distance_squared[i]));
             }
         }
         all

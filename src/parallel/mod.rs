@@ -18,10 +18,10 @@ pub use watch::{Cancelled, Watch};
 /// the results in the order of the ranges.
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
+/// Returns [`Cancelled`] if the watch cancels the work.
 ///
 /// # Panics
-/// Where `piece` is zero.
+/// Panics if `piece` is zero.
 pub fn map_pieces<T: Send>(
     len: usize,
     piece: usize,
@@ -38,7 +38,7 @@ pub fn map_pieces<T: Send>(
         watch.advanced(done.fetch_add(1, Ordering::Relaxed) + 1, pieces);
         Ok(result)
     };
-    // Each piece may go to another core: what is left at the end is then as even as it can be.
+    // Each piece may go to another core, so that all cores end at about the same time.
     #[cfg(feature = "parallel")]
     return (0..pieces).into_par_iter().with_max_len(1).map(one).collect();
     #[cfg(not(feature = "parallel"))]
@@ -95,7 +95,7 @@ impl Default for BackgroundPool {
     }
 }
 
-/// Runs both, at the same time where there are cores for it.
+/// Runs both functions, at the same time if there are cores for it.
 pub(crate) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
     rayon::join(a, b);

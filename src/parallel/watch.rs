@@ -1,30 +1,30 @@
-//! Watching long work: how far it is, and whether its result is still wanted.
+//! Progress and cancellation of long work.
 
-/// The work was called off before it was done; there is no partial result.
+/// The work was cancelled before it was done; there is no partial result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("cancelled")]
 pub struct Cancelled;
 
-/// What long work tells, and asks, whoever waits for it. Called from any thread, at least some
-/// dozens of times in a long stage, never once a point.
+/// An observer of long work, which reports its progress and asks whether to go on. Called from any thread,
+/// at least some dozens of times in a long stage, never once a point.
 pub trait Watch: Sync {
-    /// Whether to stop. Asked between pieces of work of a few milliseconds.
+    /// Whether to stop. Called between pieces of work of a few milliseconds.
     fn is_cancelled(&self) -> bool {
         false
     }
 
-    /// `done` of `total` pieces are finished. Pieces may finish out of order, so a lower number can
+    /// Reports that `done` of `total` pieces are finished. Pieces may finish out of order, so a lower number can
     /// follow a higher one.
     fn advanced(&self, _done: usize, _total: usize) {}
 }
 
-/// One part of longer work as a [`Watch`] of its own: its progress counts as a share of the whole.
+/// The [`Watch`] of one part of longer work: the part's progress counts as a share of the whole.
 pub(crate) struct PartOf<'a> {
-    /// Who watches the whole.
+    /// The watch of the whole work.
     pub(crate) watch: &'a dyn Watch,
-    /// Which of the whole's pieces the part is.
+    /// The pieces of the whole that the part comprises.
     pub(crate) pieces: std::ops::Range<usize>,
-    /// How many the whole has.
+    /// The number of pieces of the whole.
     pub(crate) total: usize,
 }
 
@@ -40,5 +40,5 @@ impl Watch for PartOf<'_> {
     }
 }
 
-/// Nobody watches: work runs to its end.
+/// No observer: the work runs to its end.
 impl Watch for () {}

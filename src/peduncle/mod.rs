@@ -2,8 +2,8 @@
 
 mod grow;
 mod hue;
-mod peduncle;
+mod reference;
 
 pub use grow::{grown, median_spacing, shrunk};
 pub use hue::{HueRange, hue_deg};
-pub use peduncle::{Peduncle, PeduncleError, PeduncleSource};
+pub use reference::{Peduncle, PeduncleError, PeduncleSource};

@@ -85,8 +85,7 @@ impl<const BIG_ENDIAN: bool> Body<'_, BIG_ENDIAN> {
         PlyError::at_byte(self.bytes.len(), element.ends_early(complete))
     }
 
-    /// All rows of an element that has no lists. One without properties takes no bytes, whatever its
-    /// count.
+    /// All rows of an element without lists. An element without properties takes no bytes, for any count.
     fn fixed_rows(&self, at: usize, element: &Element) -> Result<&[u8], PlyError> {
         let rest = self.from(at);
         let stride = element.least_stride();
@@ -151,8 +150,8 @@ impl<const BIG_ENDIAN: bool> Body<'_, BIG_ENDIAN> {
     }
 }
 
-/// Reads rows of one length, a block at a time and in it a column at a time, so that each column's
-/// type is asked once a block and not once a value.
+/// Reads rows of one length, block by block and within a block column by column, so that a column's type is matched once
+/// per block and not once per value.
 fn collect_fixed<const BIG_ENDIAN: bool>(
     rows: &[u8],
     vertex: &Element,

@@ -224,7 +224,7 @@ impl Draft {
         Ok(Step::Continue)
     }
 
-    /// `comment unit cm` is our own convention; every other comment is somebody else's.
+    /// `comment unit cm` is our own convention; every other comment is ignored.
     fn comment(&mut self, words: &Words<'_>) {
         let [keyword, symbol] = words.words.as_slice() else {
             return;

@@ -45,8 +45,7 @@ pub struct PlyCloud {
 /// Reads a PLY file from its bytes: ASCII or binary of either byte order, any scalar type for any
 /// property.
 ///
-/// Positions in ASCII keep all the digits that stand in the file, even where the header says
-/// `float`.
+/// Positions in ASCII keep all digits of the file, even if the header says `float`.
 ///
 /// ```
 /// use axiscope::ply;

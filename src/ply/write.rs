@@ -85,9 +85,8 @@ pub enum WriteError {
     },
 }
 
-/// Writes a cloud as PLY: x y z, nx ny nz where it has normals, red green blue where it has colors
-/// (and alpha unless all are opaque), label where it has labels. The same cloud and options give
-/// the same bytes.
+/// Writes a cloud as PLY: x y z, nx ny nz if it has normals, red green blue if it has colors (and alpha unless all are
+/// opaque), label if it has labels. The same cloud and options give the same bytes.
 ///
 /// The destination needs no buffer of its own: it receives some tens of kilobytes at a time.
 ///
@@ -224,7 +223,7 @@ trait Row {
     fn int(&mut self, value: i32);
 }
 
-/// The fewest digits that tell each number from its neighbors, a space after each.
+/// A row as text: the fewest digits that distinguish each number from its neighbors, a space after each.
 struct AsciiRow<'a> {
     buffer: &'a mut Vec<u8>,
 }

@@ -85,7 +85,7 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The angle of view unless one is asked for: close to that of a person looking at the screen.
+    /// The default angle of view: close to that of a person before the screen.
     pub const DEFAULT_FOV_RAD: f64 = 0.5;
 
     /// A camera at `eye_in_world` that looks at `target_in_world`, which becomes the pivot.
@@ -201,7 +201,7 @@ impl Camera {
     }
 
     /// The nearest and the farthest depth that must be drawn to show all of `bounds`. The eye's own
-    /// surroundings, a thousandth of the farthest, are given up for depths that can be told apart.
+    /// surroundings, a thousandth of the farthest, are given up for a resolution of depth.
     pub fn near_far(&self, bounds: &Bounds) -> (f64, f64) {
         let middle = self.depth_of(bounds.center_in_world);
         let radius = (1.001 * bounds.radius).max(1e-9 * middle.abs()).max(1e-12);

@@ -128,7 +128,7 @@ impl Camera {
 
 /// The share of the picture between the insets, each way, and the place of its middle.
 fn inner(viewport: Viewport, insets: Insets) -> (DVec2, DVec2) {
-    // Half of the picture is the content's whatever the insets ask for.
+    // At least half of the picture is left for the content.
     let share = |low: f64, high: f64, all: f64| {
         let scale = (0.5 * all / (low + high).max(1e-9)).min(1.0);
         let (low, high) = (low * scale, high * scale);

@@ -35,7 +35,7 @@ pub fn draw_image(
     height_px: u32,
 ) -> Result<Image, DrawError> {
     let largest = gpu.device.limits().max_texture_dimension_2d;
-    // Beyond some 8 million pixels nobody sees the steps, and memory runs short.
+    // Beyond some 8 million pixels no steps can be seen, and memory runs short.
     let small = u64::from(width_px) * u64::from(height_px) <= 8 << 20;
     let has_room = width_px.max(height_px) <= largest / 2;
     let oversampling = if small && has_room { 2 } else { 1 };

@@ -1,4 +1,4 @@
-//! What is drawn. A panel reads the [`State`](crate::app::State) and says
+//! The interface. Each panel reads the [`State`](crate::app::State) and returns
 //! [`Command`](crate::app::Command)s; it changes nothing itself.
 
 mod action;

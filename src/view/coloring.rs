@@ -284,7 +284,7 @@ fn ticks(high: f64) -> Vec<(f64, String)> {
         .unwrap_or(high);
     let mut ticks: Vec<(f64, String)> = (0..=4)
         .map(|i| f64::from(i) * step)
-        // Too near to the upper end they would stand on each other.
+        // Too near to the upper end the numbers would overlap.
         .filter(|v| *v < 0.78 * high)
         .map(|v| (v / high, digits(v, high)))
         .collect();
@@ -292,7 +292,7 @@ fn ticks(high: f64) -> Vec<(f64, String)> {
     ticks
 }
 
-/// A value with the digits that a scale up to `high` can tell apart.
+/// A value with the digits that a scale up to `high` resolves.
 fn digits(value: f64, high: f64) -> String {
     let decimals = (2.0 - high.log10().floor()).clamp(0.0, 6.0) as usize;
     format!("{value:.decimals$}")
@@ -342,7 +342,7 @@ pub fn color_labels(labels: &[i32]) -> Colored {
     for &label in labels {
         *counts.entry(label).or_default() += 1;
     }
-    // The known labels have colors of their own, whatever else there is.
+    // The known labels always have the same colors.
     let fixed = |label: i32| match label {
         Cloud::FRUIT => Some((ORANGE, "fruit")),
         Cloud::PEDUNCLE => Some((GREEN, "peduncle")),

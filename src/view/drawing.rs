@@ -32,7 +32,7 @@ pub struct Drawing {
     pub camera: Option<Camera>,
     /// Whether parallel lines stay parallel.
     pub projection: Projection,
-    /// Whether the angle between the axes stands beside them.
+    /// Whether the angle between the axes is written beside them.
     pub has_angle: bool,
 }
 
@@ -59,9 +59,9 @@ pub enum DrawingError {
     /// The grid has no such plane.
     #[error("there is no plane {g},{h}: both numbers run from 1 to {u}")]
     NoSuchPlane {
-        /// The step of α that was asked for.
+        /// The requested step of α.
         g: usize,
-        /// The step of β that was asked for.
+        /// The requested step of β.
         h: usize,
         /// The grid's steps.
         u: usize,
@@ -174,7 +174,7 @@ pub fn draw_page(
     Ok(image)
 }
 
-/// The index of a plane in the grid; `None` if the best one is asked for and there is none.
+/// The index of a plane in the grid; `None` if there is no best plane.
 fn chosen_plane(analysis: &Analysis, choice: Option<[usize; 2]>) -> Result<Option<usize>, DrawingError> {
     let grid = analysis.planes.grid;
     match choice {

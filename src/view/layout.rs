@@ -42,7 +42,7 @@ impl Page<'_> {
         let widest = texts
             .chain(notes)
             .fold(measure(&legend.title, size).max(ramp), f64::max);
-        // At most half of the picture, whatever the texts say.
+        // At most half of the picture, even for long texts.
         widest.min(0.5 * self.viewport.width_px - 3.0 * self.margin_px())
     }
 }
@@ -98,17 +98,7 @@ pub fn lay_out(page: &Page<'_>, camera: &Camera, measure: Measure<'_>) -> Vec<Pr
 }
 
 fn shortened(text: &str, size: f64, room: f64, measure: Measure<'_>) -> String {
-    if measure(text, size) <= room {
-        return text.to_owned();
-    }
-    let mut kept = text.to_owned();
-    while kept.pop().is_some() {
-        let candidate = format!("{}…", kept.trim_end());
-        if measure(&candidate, size) <= room {
-            return candidate;
-        }
-    }
-    String::new()
+    crate::text::shortened(text, |text| measure(text, size) <= room).unwrap_or_default()
 }
 
 fn caption(page: &Page<'_>, measure: Measure<'_>, out: &mut Vec<Primitive>) {

@@ -19,7 +19,7 @@ pub enum Overlay {
     Axis,
     /// The reference axis.
     Reference,
-    /// All references, where there are several.
+    /// All references, if there are several.
     References,
     /// The cloud mirrored in the plane.
     Ghost,

@@ -143,7 +143,7 @@ fn points_alone(shown: &ShownPoints, colors: Arc<[Color]>, settings: &SceneSetti
     scene
 }
 
-/// A sample of the points, large enough to tell the place of their bulk.
+/// A sample of the points, large enough to locate their bulk.
 fn bulk_sample(shown: &ShownPoints) -> impl Iterator<Item = DVec3> {
     let step = (shown.len() / 20_000).max(1);
     shown.positions.iter().step_by(step).copied()
@@ -216,7 +216,7 @@ fn brighten_cut(positions: &[DVec3], colors: &mut [Color], plane: &Plane, half_w
     }
 }
 
-/// A rectangle in the plane, along the axis where there is one, around the bulk of the points.
+/// A rectangle in the plane, along the axis if there is one, around the bulk of the points.
 fn plane_corners(shown: &ShownPoints, plane: &Plane, axis: Option<&AxisEstimate>) -> [DVec3; 4] {
     let along = axis
         .map(|a| a.direction - a.direction.dot(plane.normal) * plane.normal)

@@ -86,8 +86,7 @@ impl FromIterator<Option<usize>> for Places {
 impl ShownPoints {
     /// Every point of the file. Where a voxel grid has replaced them by others, these are shown, each
     /// with the color and label of the file's point nearest to it. Where only a sample was analyzed,
-    /// all points are shown still, and each stands for the used point nearest to it, unless its cube
-    /// cannot have held it.
+    /// all points are still shown, each in the place of the nearest used point, unless that lies outside of its cube.
     pub fn new(cloud: &Cloud, analysis: &Analysis) -> Self {
         Self::bare(cloud).analyzed(cloud, analysis)
     }
@@ -206,7 +205,7 @@ fn nearest_in(surface: &Surface, points: &[DVec3], edge: f64) -> Places {
             .map(index)
             .collect::<Vec<_>>()
     });
-    // Nobody calls this off.
+    // Without a watch, nothing is called off.
     for (&i, found) in order.iter().zip(pieces.into_iter().flatten().flatten()) {
         all[i] = found.map(|index| index as u32);
     }

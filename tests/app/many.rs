@@ -11,7 +11,7 @@ use axiscope::app::many::{
     Column, Filter, ManyCommand, Sort, SweepRanges, TableRow, evaluate_command_line, ordered,
 };
 use axiscope::app::{App, Command, Session};
-use axiscope::evaluate::{Outcome, Row, Tagged, TruthChoice, examine};
+use axiscope::evaluate::{CloudTags, Outcome, Row, TruthChoice, examine};
 use axiscope::fruit::Fruit;
 use proptest::prelude::*;
 use tempfile::TempDir;
@@ -320,9 +320,9 @@ fn saved_results_are_those_of_the_command_line_that_is_copied() {
     write_peppers(&set_folder, 3);
     std::fs::write(set_folder.join("broken.ply"), "ply\n").expect("written");
     let mut app = opened(&set_folder, &dir.path().join("cache"));
-    let tagged = Tagged {
+    let tagged = CloudTags {
         note: "odd".into(),
-        ..Tagged::default().with_tags("leaf")
+        ..CloudTags::default().with_tags("leaf")
     };
     act(&mut app, folder(ManyCommand::Tag { place: 2, tagged }));
     set(&mut app, |r| r.params.u = 7);
@@ -448,7 +448,7 @@ fn made_up(error_deg: Option<f64>, points: u64, name: &str, tag: bool) -> TableR
         path: None,
         outcome: Some(std::sync::Arc::new(outcome)),
         is_stale: false,
-        tagged: Tagged::default().with_tags(if tag { "leaf" } else { "" }),
+        tagged: CloudTags::default().with_tags(if tag { "leaf" } else { "" }),
         cells: std::sync::Arc::default(),
     }
 }

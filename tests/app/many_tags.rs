@@ -6,7 +6,7 @@ use crate::helpers::driving::{act, app, set, settle};
 use crate::helpers::peppers::write_peppers;
 use axiscope::app::many::ManyCommand;
 use axiscope::app::{App, Command};
-use axiscope::evaluate::{TAGS_FILE, Tagged};
+use axiscope::evaluate::{CloudTags, TAGS_FILE};
 use tempfile::TempDir;
 
 /// A program with the folder open, that keeps its rows in `cache`.
@@ -29,9 +29,9 @@ fn tags_are_kept_in_a_file_and_undone_in_turn_with_settings() {
     let cache = dir.path().join("cache");
     let mut app = opened(&set_folder, &cache);
     let tag = |app: &mut App, place: usize, tags: &str, note: &str| {
-        let tagged = Tagged {
+        let tagged = CloudTags {
             note: note.into(),
-            ..Tagged::default().with_tags(tags)
+            ..CloudTags::default().with_tags(tags)
         };
         act(app, folder(ManyCommand::Tag { place, tagged }));
         act(app, Command::EndGesture);
@@ -74,7 +74,7 @@ fn tags_are_kept_in_a_file_and_undone_in_turn_with_settings() {
     assert!(!app.state().can_redo);
     // What one letter after the other is typed is one step.
     for note in ["s", "so", "so d", "so dark"] {
-        let tagged = Tagged {
+        let tagged = CloudTags {
             note: note.into(),
             ..app.state().many.rows[0].tagged.clone()
         };
@@ -105,7 +105,7 @@ fn tags_that_make_no_sense_are_never_written_over() {
                 .count()
         };
         assert_eq!(says(&app), 1, "{content:?}");
-        let tagged = Tagged::default().with_tags("mine");
+        let tagged = CloudTags::default().with_tags("mine");
         act(
             &mut app,
             folder(ManyCommand::Tag {
@@ -130,7 +130,7 @@ fn tags_that_cannot_be_saved_are_told_and_stay() {
     let mut app = opened(&set, &dir.path().join("cache"));
     // As good as a disk that was pulled out.
     std::fs::remove_dir_all(&set).expect("removed");
-    let tagged = Tagged::default().with_tags("late");
+    let tagged = CloudTags::default().with_tags("late");
     act(
         &mut app,
         folder(ManyCommand::Tag {
@@ -154,7 +154,7 @@ fn another_program_s_tags_are_kept() {
     );
     for place in 0..3 {
         let app = if place == 1 { &mut other } else { &mut one };
-        let tagged = Tagged::default().with_tags("seen");
+        let tagged = CloudTags::default().with_tags("seen");
         act(app, folder(ManyCommand::Tag { place, tagged }));
     }
     let tags = axiscope::evaluate::read_tags(&set).expect("they can be read");

@@ -1,37 +1,19 @@
 //! Why a point scores as it does: against the method's own numbers, and against geometry by hand.
 
-use std::sync::Arc;
-use std::time::Duration;
-
 use axiscope::app::inspector::why::{Unexplained, why, why_lines};
-use axiscope::app::{App, Command, PlaneChoice, Sample, Session};
+use axiscope::app::{Command, PlaneChoice, Sample};
 use axiscope::geometry::Plane;
 use axiscope::method::{CenterMethod, Side, plane_detail};
 use axiscope::view::Theme;
 use glam::DVec3;
 
-fn program() -> App {
-    App::new(Session::first(), &(Arc::new(|| {}) as _)).expect("threads start")
-}
-
-fn apply(app: &mut App, command: Command) {
-    app.apply(command);
-    let begin = std::time::Instant::now();
-    loop {
-        app.update(Duration::from_millis(16));
-        if !app.is_busy() {
-            return;
-        }
-        assert!(begin.elapsed() < Duration::from_mins(2), "the workers do not end");
-        std::thread::sleep(Duration::from_millis(2));
-    }
-}
+use crate::helpers::driving::{act, app};
 
 #[test]
 fn every_number_is_the_method_s() {
-    let mut app = program();
-    apply(&mut app, Command::OpenSample(Sample::Pepper));
-    apply(&mut app, Command::LookAt(PlaneChoice::At { g: 3, h: 5 }));
+    let mut app = app();
+    act(&mut app, Command::OpenSample(Sample::Pepper));
+    act(&mut app, Command::LookAt(PlaneChoice::At { g: 3, h: 5 }));
     let state = app.state();
     let analysis = state.analysis().expect("analyzed").clone();
     let plane = Plane {
@@ -99,7 +81,7 @@ fn geometry_by_hand() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("roof.ply");
     std::fs::write(&path, ROOF).expect("written");
-    let mut app = program();
+    let mut app = app();
     let mut request = app.state().settings.request.clone();
     request.unit = Some(axiscope::geometry::Unit::Centimeter);
     request.params.center = CenterMethod::Given(DVec3::new(0.0, 0.0, 21.0));
@@ -107,15 +89,15 @@ fn geometry_by_hand() {
     request.params.u = 5;
     request.params.tau_cm_per_rad = 2.0;
     request.params.min_partner_fraction = 0.0;
-    apply(
+    act(
         &mut app,
         Command::Set {
             request: Box::new(request),
             gesture: None,
         },
     );
-    apply(&mut app, Command::Open(vec![path]));
-    apply(&mut app, Command::LookAt(PlaneChoice::At { g: 3, h: 3 }));
+    act(&mut app, Command::Open(vec![path]));
+    act(&mut app, Command::LookAt(PlaneChoice::At { g: 3, h: 3 }));
     let state = app.state();
     assert!(
         state.analysis().is_some(),
@@ -179,17 +161,17 @@ fn geometry_by_hand() {
 
 #[test]
 fn points_that_were_left_out_say_so() {
-    let mut app = program();
+    let mut app = app();
     let mut request = app.state().settings.request.clone();
     request.without_peduncle = true;
-    apply(
+    act(
         &mut app,
         Command::Set {
             request: Box::new(request),
             gesture: None,
         },
     );
-    apply(&mut app, Command::OpenSample(Sample::Pepper));
+    act(&mut app, Command::OpenSample(Sample::Pepper));
     let state = app.state();
     let shown = state.shown().expect("points");
     let out = shown

@@ -4,6 +4,7 @@
 pub mod bodies;
 pub mod command_line;
 pub mod disk;
+#[cfg(feature = "reports")]
 pub mod driving;
 #[cfg(feature = "snapshots")]
 pub mod in_window;

@@ -162,6 +162,29 @@ fn a_resumed_run_and_shards_give_the_unbroken_run_s_bytes() {
 }
 
 #[test]
+fn shards_that_run_at_once_into_one_folder_are_joined_by_resuming() {
+    let folder = TempDir::new().unwrap();
+    let set = peppers(&folder);
+    let path = |name: &str| folder.path().join(name);
+    let read = |name: &str| std::fs::read(path(name).join("results.csv")).unwrap();
+    evaluate(&set, &path("whole"), "--voxel-cm 0.3");
+    std::thread::scope(|scope| {
+        for shard in 1..=3 {
+            let (set, out) = (&set, path("shared"));
+            scope.spawn(move || evaluate(set, &out, &format!("--voxel-cm 0.3 --shard {shard}/3")));
+        }
+    });
+    assert_eq!(stored_rows(&path("shared")).1.len(), 3);
+    evaluate(&set, &path("shared"), "--voxel-cm 0.3 --resume");
+    assert_eq!(
+        stored_rows(&path("shared")).1.len(),
+        3,
+        "no cloud was analyzed again"
+    );
+    assert_eq!(read("whole"), read("shared"));
+}
+
+#[test]
 fn a_bad_cloud_is_a_row_with_its_reason() {
     let folder = TempDir::new().unwrap();
     let set = peppers(&folder);

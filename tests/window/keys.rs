@@ -2,24 +2,20 @@
 
 use std::collections::HashMap;
 use std::path::Path;
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use axiscope::app::{App, Command, Session, Tool, TrueAxesCommand};
+use axiscope::app::{App, Command, Tool, TrueAxesCommand};
 use axiscope::ui::{Action, actions};
 
+use crate::helpers::driving::{act, app, asset};
+
 /// A cloud, analyzed.
-fn app(folder: &Path) -> App {
-    let mut app = App::new(Session::first(), &(Arc::new(|| {}) as _)).expect("threads can be started");
-    let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/pepper.ply");
+fn analyzed(folder: &Path) -> App {
+    let mut app = app();
     let cloud = folder.join("pepper.ply");
-    std::fs::copy(sample, &cloud).expect("the sample");
-    app.apply(Command::Open(vec![cloud]));
-    let began = Instant::now();
-    while app.state().look.is_none() || app.is_busy() {
-        app.update(Duration::from_millis(1));
-        assert!(began.elapsed() < Duration::from_mins(1), "it never settles");
-    }
+    std::fs::copy(asset("pepper.ply"), &cloud).expect("the sample");
+    act(&mut app, Command::Open(vec![cloud]));
+    assert!(app.state().look.is_some());
     app
 }
 
@@ -40,7 +36,7 @@ fn assert_one_meaning(app: &App, what: &str) {
 #[test]
 fn a_key_has_one_meaning_in_each_mode() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut app = app(folder.path());
+    let mut app = analyzed(folder.path());
     assert_one_meaning(&app, "at first");
     for tool in [Tool::MoveCenter, Tool::Lasso, Tool::Brush] {
         app.apply(Command::Use(tool));

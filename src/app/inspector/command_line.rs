@@ -37,11 +37,8 @@ pub fn command_line(state: &State, out: &str, size_px: [u32; 2]) -> Vec<String> 
     if state.style.theme == Theme::Light {
         add("--background", "light".into());
     }
-    match state.truth {
-        TruthChoice::Truth => add("--reference", "truth".into()),
-        TruthChoice::Manual => add("--reference", "manual".into()),
-        TruthChoice::PeduncleDirection => add("--reference", "peduncle-direction".into()),
-        TruthChoice::Auto | TruthChoice::Peduncle => {}
+    if !matches!(state.truth, TruthChoice::Auto | TruthChoice::Peduncle) {
+        add("--reference", state.truth.name().into());
     }
     if let Some(shown) = state.shown() {
         let size = state.style.point_size_in_window(shown.len());

@@ -7,7 +7,6 @@ use crate::render::{Image, Viewport};
 use crate::view::{Page, PageFacts};
 
 /// Draws what the window shows, as `render` does; points keep their size relative to the picture.
-#[cfg(feature = "window")]
 pub(in crate::app) fn draw(
     state: &State,
     look: &Look,
@@ -24,12 +23,6 @@ pub(in crate::app) fn draw(
     let page = page(state, look, viewport);
     crate::view::draw_page(&gpu, &scene, &state.camera, &page, [width_px, height_px])
         .map_err(|e| e.to_string())
-}
-
-/// Without a renderer there are no pictures.
-#[cfg(not(feature = "window"))]
-pub(in crate::app) fn draw(_: &State, _: &Look, _: [u32; 2]) -> Result<Image, String> {
-    Err("this build draws no pictures: it lacks the feature `window`.".into())
 }
 
 /// The page over a look, for a view of that size.

@@ -31,7 +31,7 @@ fn framed(state: &State) -> (Vec<DVec3>, Insets) {
         label: None,
     };
     let mut insets = insets(&page, &measure);
-    // Scale bar and triad stand in the lower corners.
+    // Scale bar and triad take the lower corners.
     insets.bottom_px += 24.0;
     let points = match (state.analysis(), plane_and_axis(state)) {
         (Some(_), (plane, axis)) => framed_points(
@@ -64,7 +64,7 @@ fn plane_and_axis(
     (plane, axis)
 }
 
-/// The camera that a preset stands for; `None` where there is nothing to look along.
+/// The camera of a preset; `None` if the normal or axis to look along is missing.
 pub(in crate::app) fn preset_camera(state: &State, preset: ViewPreset) -> Option<Camera> {
     let (points, insets) = framed(state);
     let analysis = state.analysis();

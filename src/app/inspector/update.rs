@@ -8,7 +8,7 @@ use super::navigate::{default_camera, framed_camera};
 use super::stages::{AnalyzeError, AnalyzedFruit, Source};
 use crate::app::workers::Crashed;
 use crate::app::{App, Asked, PATIENCE, PLANES_PER_SECOND, PickQuestion, Seen, sentence_of_file};
-use crate::evaluate::compared;
+use crate::evaluate::collect_references;
 use crate::parallel::Cancelled;
 use crate::text::sentence;
 use crate::view::pick_point;
@@ -123,7 +123,7 @@ impl App {
                 self.set_subject(&walked.fruit, &walked.shown);
                 let walked = self.with_annotations(walked);
                 let request = &self.state.settings.request;
-                let (references, warnings) = compared(&walked.fruit, request, &walked.analysis);
+                let (references, warnings) = collect_references(&walked.fruit, request, &walked.analysis);
                 let before = self.state.walked.as_ref();
                 if before.is_none_or(|b| !Arc::ptr_eq(&b.shown, &walked.shown)) {
                     self.state.picked = None;

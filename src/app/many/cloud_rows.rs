@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::evaluate::{Outcome, Tagged, TruthChoice};
+use crate::evaluate::{CloudTags, Outcome, TruthChoice};
 use crate::view::grouped;
 
 /// A column of the table, by which it can be sorted.
@@ -119,7 +119,7 @@ pub struct TableRow {
     /// Whether the result belongs to other parameters than the current ones.
     pub is_stale: bool,
     /// Tags and note.
-    pub tagged: Tagged,
+    pub tagged: CloudTags,
     /// The texts of the cells in the order of [`Column::ALL`], made when a value changes instead of in each frame.
     pub cells: Arc<[String; 11]>,
 }
@@ -131,7 +131,7 @@ impl TableRow {
             path,
             outcome: None,
             is_stale: false,
-            tagged: Tagged::default(),
+            tagged: CloudTags::default(),
             cells: Arc::default(),
         };
         row.write_cells(place);

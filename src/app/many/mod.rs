@@ -20,7 +20,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use crate::app::workers::{Lane, Pool};
-use crate::evaluate::{Tagged, TruthChoice};
+use crate::evaluate::{CloudTags, TruthChoice};
 use crate::fruit::Request;
 use crate::parallel::BackgroundPool;
 
@@ -190,7 +190,7 @@ pub enum ManyCommand {
         /// Which cloud.
         place: usize,
         /// What is said of it now.
-        tagged: Tagged,
+        tagged: CloudTags,
     },
 }
 
@@ -218,7 +218,7 @@ pub(super) struct Many {
     results: Lane<Result<String, String>>,
     tags_read: HashSet<PathBuf>,
     /// The tags and notes that were given in this session, which are newer than any file that is still to be read.
-    edited: HashMap<PathBuf, Tagged>,
+    edited: HashMap<PathBuf, CloudTags>,
 }
 
 impl Many {

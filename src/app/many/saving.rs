@@ -8,7 +8,6 @@ use crate::evaluate::{Row, Sweep, TruthChoice, WorstPicture, result_files};
 use crate::fruit::Request;
 
 /// The number of clouds with a picture in the report.
-#[cfg(feature = "window")]
 const PICTURES: usize = 12;
 /// The name of the folder of results.
 const FOLDER: &str = "axiscope-results";
@@ -55,15 +54,8 @@ pub fn evaluate_command_line(state: &State) -> Option<Vec<String>> {
         &folder
     };
     let mut words: Vec<String> = ["axiscope".into(), "evaluate".into(), folder.display().to_string()].into();
-    let truth = match state.many.against {
-        TruthChoice::Auto => None,
-        TruthChoice::Peduncle => Some("peduncle"),
-        TruthChoice::PeduncleDirection => Some("peduncle-direction"),
-        TruthChoice::Manual => Some("manual"),
-        TruthChoice::Truth => Some("truth"),
-    };
-    if let Some(truth) = truth {
-        words.extend(["--truth".into(), truth.into()]);
+    if state.many.against != TruthChoice::Auto {
+        words.extend(["--truth".into(), state.many.against.name().into()]);
     }
     words.extend(["--out".into(), FOLDER.into()]);
     words.extend(state.settings.request.options());
@@ -165,13 +157,6 @@ fn new_folder(into: &Path) -> std::io::Result<PathBuf> {
     }
 }
 
-#[cfg(feature = "window")]
 fn pictures(task: &Task) -> (Vec<WorstPicture>, Option<String>) {
     crate::evaluate::pictures_of_worst(&task.clouds, &task.rows, &task.request, PICTURES)
-}
-
-/// Draws nothing: there is no renderer in this build.
-#[cfg(not(feature = "window"))]
-fn pictures(_: &Task) -> (Vec<WorstPicture>, Option<String>) {
-    (Vec::new(), None)
 }

@@ -6,14 +6,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use crate::app::workers::{Pool, Queue};
-use crate::evaluate::{Tagged, read_tags, write_tags};
+use crate::evaluate::{CloudTags, read_tags, write_tags};
 use crate::text::sentence;
 
 /// The result of a job.
 #[derive(Debug)]
 pub(super) enum TagResult {
     /// The tags of a folder by the clouds' names, or a sentence about the file.
-    Read(PathBuf, Result<BTreeMap<String, Tagged>, String>),
+    Read(PathBuf, Result<BTreeMap<String, CloudTags>, String>),
     /// One edit is on the disk, or a sentence says why not.
     Written(Result<(), String>),
 }
@@ -43,7 +43,7 @@ impl TagStore {
         });
     }
 
-    pub(super) fn write(&mut self, path: PathBuf, tagged: Tagged) {
+    pub(super) fn write(&mut self, path: PathBuf, tagged: CloudTags) {
         self.edits += 1;
         let (newest, edit) = (self.newest.clone(), self.edits);
         let mut of_clouds = newest.lock().unwrap_or_else(PoisonError::into_inner);

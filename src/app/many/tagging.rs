@@ -8,10 +8,10 @@ use super::background::name_of;
 use super::tag_store::TagResult;
 use super::{Filter, Many, TableRow};
 use crate::app::{App, Step};
-use crate::evaluate::Tagged;
+use crate::evaluate::CloudTags;
 
 impl App {
-    pub(super) fn tag(&mut self, place: usize, tagged: Tagged) {
+    pub(super) fn tag(&mut self, place: usize, tagged: CloudTags) {
         let Some(row) = self.state.many.rows.get(place) else {
             return;
         };
@@ -33,7 +33,7 @@ impl App {
         self.set_tagged(path, tagged);
     }
 
-    pub(in crate::app) fn set_tagged(&mut self, path: PathBuf, tagged: Tagged) {
+    pub(in crate::app) fn set_tagged(&mut self, path: PathBuf, tagged: CloudTags) {
         if let Some(&place) = self.many.places.get(&path) {
             let row = &mut Arc::make_mut(&mut self.state.many.rows)[place];
             row.tagged = tagged.clone();
@@ -92,7 +92,7 @@ impl App {
 
 impl Many {
     /// The tags and the note of a cloud now, which may no longer be in the list.
-    pub(in crate::app) fn tagged(&self, rows: &[TableRow], path: &Path) -> Tagged {
+    pub(in crate::app) fn tagged(&self, rows: &[TableRow], path: &Path) -> CloudTags {
         let row = self.places.get(path).and_then(|&place| rows.get(place));
         let tagged = row.map(|row| &row.tagged).or(self.edited.get(path));
         tagged.cloned().unwrap_or_default()

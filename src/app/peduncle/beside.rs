@@ -2,7 +2,7 @@
 
 use crate::app::App;
 use crate::app::inspector::stages::{AnalyzeError, FruitStages, Source};
-use crate::evaluate::compared;
+use crate::evaluate::collect_references;
 use crate::fruit::Request;
 use crate::method::AxisSource;
 use crate::method::axis_error_rad;
@@ -85,7 +85,7 @@ fn errors(
             AnalyzeError::Analysis { error, .. } => sentence(&error.to_string()),
             AnalyzeError::Cancelled => "It was called off.".into(),
         })?;
-    let (references, _) = compared(&walked.fruit, request, &walked.analysis);
+    let (references, _) = collect_references(&walked.fruit, request, &walked.analysis);
     let axis = walked.analysis.axis.as_ref().ok_or("There is no axis.")?;
     let error = |reference: &crate::method::AxisEstimate| {
         let degrees = axis_error_rad(axis, reference).to_degrees();

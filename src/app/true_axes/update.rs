@@ -16,7 +16,7 @@ use crate::annotate::{Author, CloudAgreement, CloudId, FAR_OFF_DEG};
 use crate::app::inspector::stages::Source;
 use crate::app::workers::{JobId, Lane, Pool, Queue};
 use crate::app::{AnalyzedFruit, App, PATIENCE};
-use crate::evaluate::compared;
+use crate::evaluate::collect_references;
 use crate::fruit::Fruit;
 use crate::parallel::Cancelled;
 use crate::text::sentence;
@@ -256,7 +256,7 @@ impl App {
         if let Some(walked) = self.state.walked.clone() {
             let walked = self.with_annotations((*walked).clone());
             let request = &self.state.settings.request;
-            let (references, warnings) = compared(&walked.fruit, request, &walked.analysis);
+            let (references, warnings) = collect_references(&walked.fruit, request, &walked.analysis);
             (self.state.references, self.state.warnings) = (references, warnings);
             self.state.walked = Some(Arc::new(walked));
             self.take_current_row();

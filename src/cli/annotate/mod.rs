@@ -12,7 +12,7 @@ use axiscope::annotate::exchange::{Placement, SlicerFrame, place, read_lines, wr
 use axiscope::annotate::{
     Annotation, Author, CloudId, Ends, Finding, Judgment, Method, Role, Store, StoreError, now,
 };
-use axiscope::evaluate::{Examined, examine, start_axis};
+use axiscope::evaluate::{Examination, examine, start_axis};
 use axiscope::fruit::Fruit;
 use axiscope::geometry::Extent;
 use clap::{Args, ValueEnum};
@@ -145,7 +145,7 @@ fn start(args: &Annotate, fruit: &Fruit, method: Method) -> anyhow::Result<Ends>
     let clock = StageClock::new();
     let examined = examine(fruit.clone(), &args.analysis.request(), &clock);
     clock.finish();
-    let Examined {
+    let Examination {
         fruit,
         analysis,
         references,

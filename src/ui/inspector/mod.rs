@@ -1,4 +1,4 @@
-//! The 3-D view of the cloud that is looked at.
+//! The 3-D view of the current cloud, with its bars.
 
 pub(super) mod paint;
 pub mod plane_bar;

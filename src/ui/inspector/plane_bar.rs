@@ -1,4 +1,4 @@
-//! The bar that walks through the candidate planes.
+//! The bar under the view, which steps through the candidate planes.
 
 use egui::{
     DragValue, Id, Painter, Pos2, Rect, Response, Role, Sense, Shape, Slider, Stroke, Ui, WidgetInfo, vec2,
@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         slider(ui, state, &planes, &order, by_rank, commands);
         let toggle = ui
             .checkbox(&mut by_rank, "by rank")
-            .on_hover_text("Walk through the planes from the best to the worst instead of through the grid.");
+            .on_hover_text("Step through the planes from the best to the worst instead of through the grid.");
         if toggle.changed() {
             ui.data_mut(|data| data.insert_temp(by_rank_id(), by_rank));
         }
@@ -101,10 +101,10 @@ fn slider(
     let before = place.map_or(1, |place| place + 1);
     let mut number = before;
 
-    // What is left of the line, without the typed value and the box after it.
+    // The rest of the line, without the typed value and the checkbox after it.
     let beside = 300.0;
     let rest = ui.available_size_before_wrap().x - ui.spacing().item_spacing.x;
-    // Where that is hardly anything, these go to the next line.
+    // If hardly any space is left, these go to the next line.
     let width = if rest - beside < 120.0 {
         rest
     } else {
@@ -149,7 +149,7 @@ fn slider(
     }
 }
 
-/// What was typed: a plane's number, or its g and h; in a whole text, as it is shown, the number counts.
+/// Parses a plane's number, or its g and h; in the whole text as it is shown, the number counts.
 fn parse(typed: &str, place_of: impl Fn(usize, usize) -> Option<usize>) -> Option<f64> {
     let numbers: Vec<usize> = typed
         .split(|letter: char| !letter.is_ascii_digit())
@@ -229,7 +229,7 @@ fn by_rank_id() -> Id {
     Id::unique("planes are walked through by rank")
 }
 
-/// Whether previous and next go by the ranking instead of by the grid: what keys ought to do, too.
+/// Whether previous and next follow the ranking instead of the grid, as the keys must then do, too.
 pub fn walks_by_rank(ctx: &egui::Context) -> bool {
     ctx.data(|data| data.get_temp(by_rank_id())).unwrap_or_default()
 }

@@ -4,13 +4,13 @@ use std::time::Duration;
 
 use egui::{Button, ProgressBar, Ui, vec2};
 
-use super::FolderAnswer;
+use super::PanelRequest;
 use crate::app::many::{EvaluationProgress, ManyCommand};
 use crate::app::{Command, State, TruthChoice};
 use crate::ui::widgets::controls::{Choice, choose};
 
 /// Shows the line.
-pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
+pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<PanelRequest> {
     let mut say = |command| commands.push(Command::Many(command));
     ui.horizontal_wrapped(|ui| {
         evaluation(ui, state, &mut say);
@@ -27,7 +27,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 }
 
 /// Shows the menu of results.
-fn results(ui: &mut Ui, state: &State) -> Option<FolderAnswer> {
+fn results(ui: &mut Ui, state: &State) -> Option<PanelRequest> {
     let mut answer = None;
     let folder = &state.many;
     let has_files = folder.rows.iter().any(|row| row.path.is_some());
@@ -38,7 +38,7 @@ fn results(ui: &mut Ui, state: &State) -> Option<FolderAnswer> {
             .on_hover_text("Tables (CSV and Parquet), a summary, figures and a page with pictures of the worst, as “axiscope evaluate” writes them")
             .on_disabled_hover_text("Once all clouds are evaluated");
         if save.clicked() {
-            answer = Some(FolderAnswer::SaveResults);
+            answer = Some(PanelRequest::SaveResults);
             ui.close();
         }
         let copy = ui.add_enabled(has_files, Button::new("Copy the command line"));
@@ -46,7 +46,7 @@ fn results(ui: &mut Ui, state: &State) -> Option<FolderAnswer> {
             .on_hover_text("The “axiscope evaluate” that does the same without a window")
             .clicked()
         {
-            answer = Some(FolderAnswer::CopyCommandLine);
+            answer = Some(PanelRequest::CopyCommandLine);
             ui.close();
         }
     });

@@ -9,7 +9,7 @@ use egui::{
     TextStyle, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::{FolderAnswer, bar};
+use super::{PanelRequest, bar};
 use crate::app::many::{KEPT_PICTURES, ManyCommand};
 use crate::app::{Command, State};
 use crate::evaluate::THUMBNAIL_PX;
@@ -42,7 +42,7 @@ struct Seen {
 type Textures = HashMap<PathBuf, (Arc<Image>, TextureHandle)>;
 
 /// Draws the panel.
-pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
+pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<PanelRequest> {
     let asked = bar::show(ui, state, commands);
     if asked.is_some() {
         return asked;
@@ -113,7 +113,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     ui.data_mut(|data| data.insert_temp(id, seen));
     let place = chosen?;
     commands.push(Command::Show(place));
-    Some(FolderAnswer::ShowView)
+    Some(PanelRequest::ShowView)
 }
 
 fn hint(ui: &mut Ui, state: &State) {

@@ -2,11 +2,11 @@
 
 mod bar;
 mod charts;
+mod cloud_table;
 mod filters;
 mod gallery;
 pub(in crate::ui) mod keys;
 mod sweep;
-mod table;
 mod tagging;
 
 use egui::Ui;
@@ -16,7 +16,7 @@ use crate::ui::pane::Pane;
 
 /// A request of a panel to the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FolderAnswer {
+pub enum PanelRequest {
     /// Bring the view to the front: the user chose a cloud.
     ShowView,
     /// Ask for the folder to save results in.
@@ -26,9 +26,9 @@ pub enum FolderAnswer {
 }
 
 /// Draws one of the panels.
-pub fn show(ui: &mut Ui, pane: Pane, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
+pub fn show(ui: &mut Ui, pane: Pane, state: &State, commands: &mut Vec<Command>) -> Option<PanelRequest> {
     match pane {
-        Pane::Table => table::show(ui, state, commands),
+        Pane::Table => cloud_table::show(ui, state, commands),
         Pane::Charts => charts::show(ui, state, commands),
         Pane::Gallery => gallery::show(ui, state, commands),
         Pane::Sweep => sweep::show(ui, state, commands),

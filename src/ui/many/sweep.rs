@@ -4,7 +4,7 @@ use egui::{
     Align2, Button, Checkbox, DragValue, Mesh, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::{FolderAnswer, bar};
+use super::{PanelRequest, bar};
 use crate::app::many::{ManyCommand, SweepState};
 use crate::app::{Command, State};
 use crate::evaluate::Sweep;
@@ -14,7 +14,7 @@ use crate::ui::widgets::marks::ramp_color;
 use crate::ui::widgets::marks::{self, Mark};
 
 /// Draws the panel.
-pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
+pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<PanelRequest> {
     let asked = bar::show(ui, state, commands);
     if asked.is_some() {
         return asked;

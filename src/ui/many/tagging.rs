@@ -4,7 +4,7 @@ use egui::{Id, Label, RichText, TextEdit, Ui};
 
 use crate::app::many::{ManyCommand, TableRow};
 use crate::app::{Command, State};
-use crate::evaluate::Tagged;
+use crate::evaluate::CloudTags;
 use crate::ui::widgets::controls::{small, warning_color};
 
 /// The text of the fields and its cloud. Commas and spaces stay as the user typed them.
@@ -13,7 +13,7 @@ struct Typed {
     place: usize,
     tags: String,
     /// The tags that the text stands for.
-    tagged: Tagged,
+    tagged: CloudTags,
 }
 
 /// Shows the cloud's name and problems, and the fields.
@@ -63,7 +63,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
                 .on_hover_text("Anything, kept beside the tags")
                 .accessible_name("Note on this cloud");
             if field.changed() {
-                let tagged = Tagged {
+                let tagged = CloudTags {
                     note,
                     ..row.tagged.clone()
                 };
@@ -77,7 +77,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     ui.add_space(2.0);
 }
 
-fn say(place: usize, tagged: &Tagged, commands: &mut Vec<Command>) {
+fn say(place: usize, tagged: &CloudTags, commands: &mut Vec<Command>) {
     commands.push(Command::Many(ManyCommand::Tag {
         place,
         tagged: tagged.clone(),

@@ -1,4 +1,4 @@
-//! The list of open clouds: which is shown, which cannot be used, and what else can be opened.
+//! The list of open clouds with their problems, and the samples and recent files that can be opened.
 
 use egui::text::LayoutJob;
 use egui::{Align, Button, Layout, RichText, ScrollArea, TextFormat, TextStyle, Ui};
@@ -7,9 +7,9 @@ use crate::app::{Command, Entry, Sample, Source, State};
 use crate::ui::action::WindowAct;
 use crate::ui::widgets::controls::{hint, small, text_field, warning_color};
 
-/// Lists that are longer than this can be filtered.
+/// The longest list without a filter.
 const UNFILTERED: usize = 10;
-/// The rows of the list that are shown at a time.
+/// The number of rows shown at a time.
 const ROWS: f32 = 12.0;
 
 /// Shows the list, and the samples and recent files; returns the request for the dialog that opens files.
@@ -41,14 +41,14 @@ fn steps(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         let can_go_on = state.neighbor(1).is_some();
         if ui
             .add_enabled(can_go_back, Button::new("Previous"))
-            .on_hover_text("The cloud before, as the table has them, seen from where this one is seen.")
+            .on_hover_text("The previous cloud in the order of the table, from the same side as this one.")
             .clicked()
         {
             commands.push(Command::Go(-1));
         }
         if ui
             .add_enabled(can_go_on, Button::new("Next"))
-            .on_hover_text("The next cloud, as the table has them, seen from where this one is seen.")
+            .on_hover_text("The next cloud in the order of the table, from the same side as this one.")
             .clicked()
         {
             commands.push(Command::Go(1));
@@ -81,7 +81,7 @@ fn list(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let mut area = ScrollArea::vertical()
         .max_height(ROWS * (height + spacing))
         .auto_shrink([false, true]);
-    // A cloud that was just gone to is brought into sight.
+    // A cloud that has just become the current one is scrolled into sight.
     let memory = ui.make_persistent_id("last shown");
     let sought = (state.current, filter);
     if ui
@@ -102,7 +102,7 @@ fn list(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
 }
 
-/// The field that narrows a long list, and what is typed in it, in lower case.
+/// Shows the field that filters a long list; returns its text in lower case.
 fn filter(ui: &mut Ui, count: usize) -> String {
     if count <= UNFILTERED {
         return String::new();
@@ -130,7 +130,7 @@ fn row(ui: &mut Ui, state: &State, place: usize, commands: &mut Vec<Command>) {
     };
     text.append(&name, 0.0, TextFormat::simple(font, color));
     if let Some(problem) = &entry.problem {
-        // On the current row's ground the warning's color has too little contrast.
+        // The warning's color has too little contrast on the current row's background.
         let color = if is_current { color } else { warning_color(ui) };
         text.append(problem, 8.0, TextFormat::simple(small(ui), color));
     }
@@ -187,7 +187,7 @@ fn recent(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     if state.recent.is_empty() {
         return;
     }
-    egui::CollapsingHeader::new("Opened lately")
+    egui::CollapsingHeader::new("Recently opened")
         .default_open(state.entries.is_empty())
         .show_unindented(ui, |ui| {
             for path in &state.recent {

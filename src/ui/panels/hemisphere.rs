@@ -1,4 +1,4 @@
-//! Every candidate normal on a hemisphere: a dot a plane, seen from the camera's side unless turned.
+//! Every candidate normal on a hemisphere: one dot per plane, seen from the camera's side unless turned.
 
 use egui::{Color32, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! The map of scores: a cell a candidate plane, g across and h down.
+//! The map of scores: one cell per candidate plane, g across and h down.
 
 use egui::{Align2, Mesh, Painter, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -145,7 +145,7 @@ impl Layout {
         }
     }
 
-    /// Hatches all cells without a score with as few lines as there can be.
+    /// Hatches the cells without a score with as few lines as possible.
     fn paint_hatch(&self, ui: &Ui, planes: &Planes) {
         let stroke = marks::hatch_stroke(ui);
         let line = |[from, to]: [f32; 2], sum: f32| {
@@ -156,7 +156,8 @@ impl Layout {
         let (left, right) = (self.columns[0], self.columns[self.u]);
         let (top, bottom) = (self.rows[0], self.rows[self.u]);
         let mut sum = left + top + spacing;
-        // Along each line, x + y stays the same.
+        // A line of the hatch is x + y = sum. It is cut where it crosses the edges of the cells, and drawn through
+        // neighboring cells without a score in one piece.
         while sum < right + bottom {
             let (from, to) = ((sum - bottom).max(left), (sum - top).min(right));
             let mut places: Vec<f32> = self.columns.clone();

@@ -1,4 +1,4 @@
-//! Why this score? The paper's steps for one point, as numbers.
+//! “Why this score?”: the steps of the method for one point, as numbers.
 
 use egui::{Button, Color32, Label, RichText, Ui};
 use glam::DVec3;
@@ -9,9 +9,9 @@ use crate::geometry::Unit;
 use crate::method::Side;
 use crate::render::Color;
 use crate::text::sentence;
-use crate::ui::widgets::controls::{caution, hint, small};
+use crate::ui::widgets::controls::{button, caution, coordinates, hint, small};
 
-/// Shows the steps of the picked point, else of the one under the cursor, and says what to do with it.
+/// Shows the steps of the picked point, or else of the point under the cursor.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 3.0;
     let picked = state.picked.and_then(|index| why(state, index));
@@ -73,7 +73,7 @@ fn heading(ui: &mut Ui, state: &State, why: &Why, is_picked: bool, commands: &mu
             .on_hover_text("Picks the nearest neighbor of this point's reflection.")
             .on_disabled_hover_text("This point has no visible partner.");
         if let Some(partner) = partner.filter(|_| go.clicked()) {
-            // A walk over all points, on a click alone.
+            // This searches all points, but only on a click.
             let place = state.look.as_ref().and_then(|look| {
                 let wanted = Some(partner.surface_index);
                 look.shown.in_surface.iter().position(|at| at == wanted)
@@ -82,24 +82,16 @@ fn heading(ui: &mut Ui, state: &State, why: &Why, is_picked: bool, commands: &mu
                 commands.push(Command::Pick(place));
             }
         }
-        if ui
-            .button("Turn about it")
-            .on_hover_text("The camera then turns about this point.")
-            .clicked()
-        {
+        if button(ui, "Turn about it", "Makes the camera turn about this point.") {
             commands.push(Command::PivotOnPicked);
         }
-        if ui
-            .button("Clear")
-            .on_hover_text("No point is picked then.")
-            .clicked()
-        {
+        if button(ui, "Clear", "Clears the picked point.") {
             commands.push(Command::Pick(None));
         }
     });
 }
 
-/// The title of a step, with its place in the paper and the color that it has in the view.
+/// Shows the title of a step, with its place in the paper and its color in the view.
 fn title(ui: &mut Ui, number: usize, text: &str, place: &str, color: Option<Color>) {
     ui.add_space(6.0);
     ui.horizontal(|ui| {
@@ -117,7 +109,7 @@ fn title(ui: &mut Ui, number: usize, text: &str, place: &str, color: Option<Colo
     });
 }
 
-/// A number with its name.
+/// Shows a value with its name.
 fn value(ui: &mut Ui, name: &str, value: String, tip: &str) {
     ui.horizontal(|ui| {
         ui.add_space(12.0);
@@ -128,16 +120,6 @@ fn value(ui: &mut Ui, name: &str, value: String, tip: &str) {
                 .on_hover_text(tip);
         });
     });
-}
-
-fn place(unit: Option<Unit>, p: DVec3) -> String {
-    let decimals = match unit {
-        Some(Unit::Centimeter) => 2,
-        Some(Unit::Millimeter) => 1,
-        Some(Unit::Meter) | None => 4,
-    };
-    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
-    format!("{:.decimals$}, {:.decimals$}, {:.decimals$}{unit}", p.x, p.y, p.z)
 }
 
 fn direction(n: DVec3) -> String {
@@ -155,7 +137,7 @@ fn point(ui: &mut Ui, why: &Why) {
     value(
         ui,
         "Position",
-        place(why.unit, why.position),
+        coordinates(why.position, why.unit),
         "X, Y, Z in the file's unit and frame.",
     );
     if let Ok(steps) = &why.steps {
@@ -183,7 +165,7 @@ fn reflection(ui: &mut Ui, unit: Option<Unit>, steps: &Steps) {
     value(
         ui,
         "Position",
-        place(unit, steps.reflection),
+        coordinates(steps.reflection, unit),
         "The point's mirror image in the plane (Eq. 12).",
     );
     value(
@@ -196,7 +178,7 @@ fn reflection(ui: &mut Ui, unit: Option<Unit>, steps: &Steps) {
 
 fn visibility(ui: &mut Ui, steps: &Steps) {
     title(ui, 3, "Could it be seen?", "Eq. 14", None);
-    let tip = "The inner product of the reflected normal ñ and the way from the reflection to the viewpoint \
+    let tip = "The inner product of the reflected normal ñ and the vector from the reflection to the viewpoint \
                p_v. Above 0 the surface there would face the camera.";
     value(
         ui,
@@ -223,7 +205,7 @@ fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &Match) {
     value(
         ui,
         "Position",
-        place(unit, partner.position),
+        coordinates(partner.position, unit),
         "The point of the cloud that is nearest to the reflection.",
     );
     value(
@@ -259,7 +241,7 @@ fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &Match) {
         ui,
         "S = d + τξ",
         format!("{:.4} cm", partner.score_cm),
-        "What the point adds to the plane's score.",
+        "The contribution of the point to the plane's score.",
     );
     let tau = partner.tau_cm_per_rad;
     hint(
@@ -271,12 +253,12 @@ fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &Match) {
         let percent = (100.0 * share).round().clamp(0.0, 100.0);
         hint(
             ui,
-            format!("Larger than what about {percent:.0} % of the plane's points add."),
+            format!("Larger than the scores of about {percent:.0} % of the plane's points."),
         );
     }
 }
 
-/// How d and τξ make up S.
+/// Shows the shares of d and τξ in S.
 fn shares(ui: &mut Ui, partner: &Match) {
     if partner.score_cm <= 0.0 {
         return;
@@ -285,7 +267,7 @@ fn shares(ui: &mut Ui, partner: &Match) {
         ui.allocate_exact_size(egui::vec2(ui.available_width(), 16.0), egui::Sense::hover());
     let share = (partner.distance_cm / partner.score_cm) as f32;
     let middle = rect.left() + share * rect.width();
-    // White is read well on both.
+    // White is readable on both.
     let (of_d, of_angle) = (
         Color32::from_rgb(0x1f, 0x6f, 0xb0),
         Color32::from_rgb(0xa8, 0x49, 0x00),

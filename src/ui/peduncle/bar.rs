@@ -2,14 +2,14 @@
 
 use egui::{Button, DragValue, RichText, Ui};
 
-use super::tools::hint;
+use super::tools::{hint, picking_tools};
 use crate::app::peduncle::PedunclePath;
 use crate::app::{Command, PeduncleCommand, State, Tool};
 use crate::ui::action::{Act, Action};
 use crate::ui::widgets::controls::{self, warning_color};
 use crate::view::PEDUNCLE_MARK;
 
-/// Shows the bar, where a tool is in hand.
+/// Shows the bar while a tool is in hand.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
     if !state.is_picking() {
         return;
@@ -17,15 +17,8 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: 
     let picking = &state.peduncle;
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Peduncle:").strong());
-        for (text, tool, tip) in [
-            ("Lasso", Tool::Lasso, "Go around its points (K)"),
-            ("Brush", Tool::Brush, "Paint over its points (B)"),
-        ] {
-            let button = Button::selectable(state.tool == tool, text).frame_when_inactive(true);
-            if ui.add(button).on_hover_text(tip).clicked() {
-                acts.push(Act::App(Command::Use(tool)));
-            }
-        }
+        let tool = picking_tools(ui, state, str::to_owned);
+        acts.extend(tool.map(|tool| Act::App(Command::Use(tool))));
         if state.tool == Tool::Brush {
             let mut radius = picking.brush_radius_px;
             let field = DragValue::new(&mut radius)
@@ -43,9 +36,9 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: 
             }
         }
         let mut is_through = picking.is_through;
-        let tip = "Take points that others hide as well, through the whole cloud (Shift + H). Otherwise only what \
-                   is seen is taken.";
-        if ui.checkbox(&mut is_through, "Through").on_hover_text(tip).changed() {
+        let tip = "Pick hidden points as well, through the whole cloud (Shift + H). Otherwise only visible points are \
+                   picked.";
+        if controls::checkbox(ui, &mut is_through, "Through", tip) {
             say(acts, PeduncleCommand::Through(is_through));
         }
         ui.separator();
@@ -58,7 +51,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: 
             .max_decimals(1)
             .prefix("by ")
             .suffix(" ×");
-        let tip = "How far it grows or shrinks at a time, in multiples of the median distance between neighboring \
+        let tip = "The distance by which it grows or shrinks, in multiples of the median distance between neighboring \
                    points";
         let response = ui
             .add(field)
@@ -72,19 +65,15 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: 
         button(ui, "Clear", PeduncleCommand::Clear, actions, acts);
         ui.separator();
         button(ui, "Save", PeduncleCommand::Save, actions, acts);
-        let tip = "Save the peduncle's points as a PLY file of their own, wherever you like";
-        if ui.button("Save as …").on_hover_text(tip).clicked() {
+        let tip = "Save the peduncle's points as a PLY file of their own, anywhere";
+        if controls::button(ui, "Save as …", tip) {
             say(acts, PeduncleCommand::Ask(PedunclePath::SaveAs));
         }
-        if ui
-            .button("Done")
-            .on_hover_text("Put the tool away (Esc)")
-            .clicked()
-        {
+        if controls::button(ui, "Done", "Put the tool away (Esc)") {
             acts.push(Act::App(Command::Use(Tool::Navigate)));
         }
     });
-    // Not over the view: the peduncle is often at its upper edge.
+    // Not over the view, where the peduncle is often at the upper edge.
     ui.horizontal(|ui| {
         picked(ui, state);
         if let Some(text) = hint(state) {
@@ -93,7 +82,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, actions: &[Action], acts: 
     });
 }
 
-/// How many points are picked, and whether they lie in a file.
+/// Shows the number of picked points, and whether they are saved in a file.
 fn picked(ui: &mut Ui, state: &State) {
     if state.peduncle.is_working {
         ui.spinner();
@@ -116,7 +105,7 @@ fn picked(ui: &mut Ui, state: &State) {
         ui.label(count);
         ui.label(RichText::new("not saved in a file yet").color(warning_color(ui)))
             .on_hover_text(
-                "It comes back with the window, and can be undone; the command line knows it once it is saved.",
+                "The window restores it at the next start, and it can be undone; the command line can use it once it is saved.",
             );
     } else {
         ui.label(count);

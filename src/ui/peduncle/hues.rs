@@ -1,15 +1,15 @@
-//! The bar of hues: how the cloud's own are spread, and the range that is chosen among them.
+//! The bar of hues: the histogram of the cloud's hues, and the chosen range.
 
 use egui::{Color32, Mesh, Response, Sense, Ui, ecolor::Hsva, pos2, vec2};
 
 use crate::app::peduncle::Hues;
 use crate::peduncle::HueRange;
 
-/// The height of the histogram, of the colors, and of the line under them.
+/// The heights of the histogram, of the colors, and of the line under them.
 const HEIGHTS: [f32; 3] = [34.0, 8.0, 5.0];
 
-/// Shows the hues from 0° to 360° with the cloud's histogram over them, and a line under those in the range.
-/// The range's ends can be dragged; says how.
+/// Shows the hues from 0° to 360° with the cloud's histogram over them, and a line under those in the range,
+/// whose ends can be dragged.
 pub(in crate::ui) fn show(ui: &mut Ui, range: &mut HueRange, hues: Option<&Hues>) -> Response {
     let height = HEIGHTS.iter().sum();
     let size = vec2(ui.available_width(), height);
@@ -37,7 +37,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, range: &mut HueRange, hues: Option<&Hues>
         for (bin, &count) in hues.counts.iter().enumerate() {
             let low = (bin * Hues::BIN_DEG) as f64;
             let middle = low + 0.5 * Hues::BIN_DEG as f64;
-            // The root, so that a peduncle of few points is seen beside its fruit.
+            // The square root, so that a peduncle of few points is seen beside its fruit.
             let share = (count as f64 / most as f64).sqrt() as f32;
             let bar = egui::Rect::from_min_max(
                 pos2(at(low), top - share * (HEIGHTS[0] - 2.0)),
@@ -79,7 +79,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, range: &mut HueRange, hues: Option<&Hues>
     response
 }
 
-/// Moves the end of the range that a drag began nearer to.
+/// Moves the end of the range that was nearer when the drag began.
 fn drag(ui: &Ui, rect: egui::Rect, range: &mut HueRange, response: &mut Response) {
     let memory = response.id.with("end");
     let Some(at) = response.interact_pointer_pos() else {

@@ -1,14 +1,14 @@
-//! What can be done about the peduncle with keys.
+//! The actions on the peduncle, with their keys.
 
 use egui::Key;
 
 use crate::app::{Command, PeduncleCommand, State, Tool};
 use crate::ui::action::{Action, CTRL, Group, NONE, SHIFT};
 
-/// A brush is made so much larger with a key.
-pub(in crate::ui) const BRUSH_STEP: f64 = 1.25;
+/// The factor by which a key sizes the brush.
+const BRUSH_STEP: f64 = 1.25;
 
-/// Everything of it, as things are now.
+/// Returns the actions in the current state.
 pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
     let can_pick = state.current_walked().is_some();
     let tool = |title: &str, tool: Tool, key: Key| {
@@ -33,7 +33,7 @@ pub(in crate::ui) fn actions(state: &State) -> Vec<Action> {
             .key(SHIFT, Key::S)
             .repeating(),
         edit("Invert the picked points", PeduncleCommand::Invert),
-        edit("Pick no point", PeduncleCommand::Clear),
+        edit("Clear the picked points", PeduncleCommand::Clear),
         edit(
             "Pick hidden points as well",
             PeduncleCommand::Through(!picking.is_through),

@@ -1,4 +1,4 @@
-//! What is asked before a file is replaced, or taken as the peduncle.
+//! The questions before a file is replaced, or used as the peduncle.
 
 use egui::{Align2, vec2};
 
@@ -6,7 +6,7 @@ use crate::app::peduncle::Question;
 use crate::app::{Command, PeduncleCommand, Source, State};
 use crate::fruit::PeduncleChoice;
 
-/// Shows the question that there is, if any.
+/// Shows the open question, if there is one.
 pub(in crate::ui) fn show(ctx: &egui::Context, state: &State, commands: &mut Vec<Command>) {
     let Some(question) = &state.peduncle.question else {
         return;
@@ -26,7 +26,7 @@ pub(in crate::ui) fn show(ctx: &egui::Context, state: &State, commands: &mut Vec
             match question {
                 Question::Replace(path) => {
                     ui.label(format!(
-                        "{} is there already. It may hold somebody's work.",
+                        "{} already exists. It may hold somebody's work.",
                         path.display()
                     ));
                     ui.add_space(6.0);

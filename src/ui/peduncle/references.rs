@@ -1,6 +1,6 @@
-//! Both references that a peduncle gives, how far they are apart, and both of the paper's experiments.
+//! The two references that a peduncle gives, the angle between them, and both of the paper's experiments.
 
-use egui::{Color32, Grid, Label, ProgressBar, Ui};
+use egui::{Color32, Grid, Label, Ui};
 
 use crate::app::peduncle::Errors;
 use crate::app::{Command, PeduncleCommand, State};
@@ -8,16 +8,16 @@ use crate::evaluate::peduncle_disagreement_deg;
 use crate::method::AxisSource;
 use crate::method::axis_error_rad;
 use crate::text::sentence;
-use crate::ui::widgets::controls::{caution, hint};
-use crate::ui::window::status::stage_name;
+use crate::ui::widgets::controls::{caution, checkbox, hint};
+use crate::ui::widgets::progress::stage_progress;
 use crate::view::{Overlay, reference_color};
 
-/// From this many degrees on a reference is not to be trusted blindly: about twice the published errors.
+/// The angle between the references from which neither is to be trusted blindly: about twice the published errors.
 const FAR_APART_DEG: f64 = 15.0;
 
-/// Shows both references with the axis' error against each.
+/// Shows both references with the axis's error against each.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    // What either says is computed.
+    // Both show computed results.
     if state.true_axes.is_blind {
         return;
     }
@@ -35,17 +35,17 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
                     AxisSource::Peduncle,
                     "center to its mean",
                     "The reference of § 3.2: from the fruit center through the mean of the peduncle's points. It is \
-                     off where the center is.",
+                     wrong if the center is.",
                 ),
                 (
                     AxisSource::PeduncleDirection,
                     "its own direction",
-                    "The line along which the peduncle's points are spread most. It does not depend on the center, \
-                     but a bent peduncle leaves the fruit's axis.",
+                    "The line along which the peduncle's points spread most. It does not depend on the center, \
+                     but a bent peduncle departs from the fruit's axis.",
                 ),
             ] {
                 let reference = state.references.iter().find(|r| r.source == source);
-                // The one that errors are measured against is drawn in white.
+                // The reference of the errors is drawn in white.
                 let is_chosen = state.reference().is_some_and(|r| r.source == source);
                 let [r, g, b, _] = if is_chosen {
                     [255; 4]
@@ -54,7 +54,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
                 };
                 ui.horizontal(|ui| {
                     let (rect, _) = ui.allocate_exact_size(egui::vec2(10.0, 10.0), egui::Sense::hover());
-                    // White stands on a light ground as well.
+                    // White needs an outline on a light background.
                     let outline = egui::Stroke::new(1.0, ui.visuals().weak_text_color());
                     let fill = Color32::from_rgb(r, g, b);
                     ui.painter()
@@ -74,11 +74,9 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
         });
     let mut style = state.style.clone();
     let mut shows_all = style.overlays.has(Overlay::References);
-    if ui
-        .checkbox(&mut shows_all, "Show all references")
-        .on_hover_text("Draw every reference axis that there is in the view, dashed, besides the one that errors are measured against")
-        .changed()
-    {
+    let tip =
+        "Draw every reference axis in the view, dashed, besides the one that errors are measured against";
+    if checkbox(ui, &mut shows_all, "Show all references", tip) {
         style.overlays.set(Overlay::References, shows_all);
         commands.push(Command::Style(Box::new(style)));
     }
@@ -105,7 +103,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 
 /// Shows the errors with and without the peduncle.
 pub(in crate::ui) fn beside(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    // What either says is computed.
+    // Both show computed results.
     if state.true_axes.is_blind {
         return;
     }
@@ -115,7 +113,7 @@ pub(in crate::ui) fn beside(ui: &mut Ui, state: &State, commands: &mut Vec<Comma
         .as_ref()
         .is_some_and(|walked| walked.fruit.peduncle.is_some());
     let mut wants = picking.wants_beside;
-    let tip = "Analyze this cloud both ways, as the paper's two experiments do, and show both errors. Unchecking calls it off.";
+    let tip = "Analyze this cloud both ways, as the paper's two experiments do, and show both errors. Unchecking cancels it.";
     let response = ui
         .add_enabled(
             has_peduncle || wants,
@@ -130,10 +128,7 @@ pub(in crate::ui) fn beside(ui: &mut Ui, state: &State, commands: &mut Vec<Comma
     }
     let Some(beside) = &picking.beside else {
         if let Some(progress) = picking.beside_progress {
-            let stage = progress.stage.map_or("Reading", stage_name);
-            let text = format!("{stage} · {:.0} %", 100.0 * progress.share);
-            // Unchecking calls it off.
-            ui.add(ProgressBar::new(progress.share as f32).text(text));
+            ui.add(stage_progress(&progress));
         }
         return;
     };

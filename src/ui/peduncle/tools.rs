@@ -1,13 +1,31 @@
 //! Lasso and brush in the view. Only the primary button edits, and only the others move the camera.
 
-use egui::{Color32, CursorIcon, PointerButton, Pos2, Rect, Shape, Stroke, vec2};
+use egui::{Button, Color32, CursorIcon, PointerButton, Pos2, Rect, Shape, Stroke, vec2};
 use glam::DVec2;
 
 use crate::app::{Command, PeduncleCommand, State, Tool};
 use crate::render::Viewport;
 use crate::ui::inspector::view3d::ORBIT_RAD_PER_PX;
 
-/// What a drag in the view does while one of the tools is in hand.
+/// Shows the buttons of both tools, named by `name` for a screen reader; returns the tool that was clicked.
+pub(in crate::ui) fn picking_tools(
+    ui: &mut egui::Ui,
+    state: &State,
+    name: impl Fn(&str) -> String,
+) -> Option<Tool> {
+    let tools = [
+        ("Lasso", Tool::Lasso, "Draw around the peduncle's points (K)"),
+        ("Brush", Tool::Brush, "Paint over the peduncle's points (B)"),
+    ];
+    let clicked = tools.map(|(text, tool, tip)| {
+        let button = Button::selectable(state.tool == tool, text).frame_when_inactive(true);
+        let response = ui.add(button).on_hover_text(tip).accessible_name(name(text));
+        response.clicked().then_some(tool)
+    });
+    clicked.into_iter().flatten().next()
+}
+
+/// Carries out a drag in the view while one of the tools is in hand.
 pub(in crate::ui) fn drag(
     ui: &egui::Ui,
     response: &egui::Response,
@@ -31,7 +49,7 @@ pub(in crate::ui) fn drag(
         };
         ui.ctx().set_cursor_icon(cursor);
     }
-    // What is drawn belongs to the view that it is drawn over.
+    // A stroke belongs to the view that it is drawn over.
     if is_drawing {
         return;
     }
@@ -70,7 +88,7 @@ pub(in crate::ui) fn drag(
     }
 }
 
-/// The drag of the primary button, from the very place where it was pressed.
+/// Draws by the primary button, from the very place where it was pressed.
 fn stroke(
     ui: &egui::Ui,
     response: &egui::Response,
@@ -86,7 +104,7 @@ fn stroke(
             let at_px = local(pos);
             commands.push(Command::Peduncle(PeduncleCommand::Draw { at_px, removes }));
         };
-        // Every place of a quick hand, not only the last one of the frame.
+        // Every position of a quick hand, not only the last one of the frame.
         for event in &i.events {
             match event {
                 egui::Event::PointerButton {
@@ -96,7 +114,7 @@ fn stroke(
                     modifiers,
                 } if is_ours => {
                     is_open = true;
-                    removes = takes_away(*modifiers);
+                    removes = is_removing(*modifiers);
                     draw(*pos, removes);
                 }
                 egui::Event::PointerMoved(pos) if is_open => draw(*pos, removes),
@@ -112,18 +130,18 @@ fn stroke(
                 _ => {}
             }
         }
-        // The button was let go where nobody told us.
+        // The button may be released outside of the window, where no event comes.
         if is_ended || (is_open && !i.pointer.primary_down()) {
             commands.push(Command::Peduncle(PeduncleCommand::EndStroke));
         }
     });
 }
 
-fn takes_away(modifiers: egui::Modifiers) -> bool {
+fn is_removing(modifiers: egui::Modifiers) -> bool {
     modifiers.shift || modifiers.alt
 }
 
-/// The line of the lasso, or the brush under the cursor.
+/// Draws the line of the lasso, or the brush under the cursor.
 pub(in crate::ui) fn paint(ui: &egui::Ui, response: &egui::Response, rect: Rect, state: &State) {
     if !state.is_picking() {
         return;
@@ -133,14 +151,14 @@ pub(in crate::ui) fn paint(ui: &egui::Ui, response: &egui::Response, rect: Rect,
     let drawn = state.peduncle.strokes.back().filter(|s| !s.is_ended);
     let removes = match drawn {
         Some(stroke) => stroke.removes,
-        None => ui.input(|i| takes_away(i.modifiers)),
+        None => ui.input(|i| is_removing(i.modifiers)),
     };
     let color = if removes {
         Color32::from_rgb(0xff, 0xb0, 0x30)
     } else {
         Color32::WHITE
     };
-    // Dark under light, so that it is seen on everything.
+    // Light over dark, so that it is visible on every color.
     let strokes = [
         Stroke::new(3.5, Color32::from_black_alpha(170)),
         Stroke::new(1.5, color),
@@ -163,7 +181,7 @@ pub(in crate::ui) fn paint(ui: &egui::Ui, response: &egui::Response, rect: Rect,
         for stroke in strokes {
             painter.circle_stroke(at, radius, stroke);
         }
-        // A plus or a minus: color alone is not for everyone.
+        // A plus or a minus as well: not everybody tells the colors apart.
         for stroke in strokes {
             painter.line_segment([at - vec2(4.0, 0.0), at + vec2(4.0, 0.0)], stroke);
             if !removes {
@@ -173,7 +191,7 @@ pub(in crate::ui) fn paint(ui: &egui::Ui, response: &egui::Response, rect: Rect,
     }
 }
 
-/// What is said under the bar while a tool is in hand; `None` where none is.
+/// Returns the instructions for the tool in hand; `None` without one.
 pub(in crate::ui) fn hint(state: &State) -> Option<&'static str> {
     match state.tool {
         Tool::Lasso => Some(

@@ -6,8 +6,7 @@ use super::say;
 use crate::annotate::{Confidence, Ends, Judgment, Method, NUDGES_DEG, Pivot};
 use crate::app::true_axes::{Ghost, Turn};
 use crate::app::{Command, State, TrueAxesCommand};
-use crate::ui::panels::parameters::Triple;
-use crate::ui::widgets::controls::{Number, hint, row};
+use crate::ui::widgets::controls::{Coordinates, Number, decimals, hint, row};
 
 /// Shows it in edit mode.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
@@ -59,7 +58,7 @@ fn numbers(ui: &mut Ui, state: &State, ends: &Ends, commands: &mut Vec<Command>)
     let in_cm = unit.map_or(1.0, crate::geometry::Unit::in_cm);
     let (mut base, mut blossom) = (ends.peduncle_base(), ends.blossom_end());
     let tip = "In the file's unit and frame. Type it, or drag it sideways.";
-    let name = |name| Triple { name, tip, unit };
+    let name = |name| Coordinates { name, tip, unit };
     let response = name("Peduncle base").show(ui, &mut base);
     edited(&response, ends.with_peduncle_base(base), commands);
     let response = name("Blossom end").show(ui, &mut blossom);
@@ -74,7 +73,7 @@ fn numbers(ui: &mut Ui, state: &State, ends: &Ends, commands: &mut Vec<Command>)
             suffix: &symbol,
             range: 1e-9..=1e12,
             speed: 0.02 / in_cm,
-            decimals: crate::ui::panels::parameters::decimals(unit),
+            decimals: decimals(unit),
             width: Number::WIDTH,
         };
         number.show(ui, &mut length, tip)

@@ -1,4 +1,4 @@
-//! What panels are made of.
+//! The parts that panels share.
 
 pub(super) mod color_scale;
 pub(super) mod controls;
@@ -6,4 +6,5 @@ pub(super) mod marks;
 pub(super) mod memo;
 pub(super) mod notice;
 pub(super) mod plane_tip;
+pub(super) mod progress;
 pub(super) mod rows;

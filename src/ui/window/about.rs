@@ -1,8 +1,8 @@
-//! What the program is, and whose method it shows.
+//! The sheet about the program and the paper of its method.
 
 use egui::Modal;
 
-/// Shows the sheet; says whether it is to stay.
+/// Shows the sheet; returns whether it stays open.
 pub fn show(ctx: &egui::Context) -> bool {
     let modal = Modal::new(egui::Id::unique("about")).show(ctx, |ui| {
         ui.set_max_width(440.0);

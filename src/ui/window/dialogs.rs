@@ -1,4 +1,4 @@
-//! The desktop's own dialogs, waited for beside the interface.
+//! The desktop's file dialogs, which a thread beside the interface waits for.
 
 use std::path::PathBuf;
 use std::sync::mpsc::Sender;
@@ -9,21 +9,21 @@ use crate::app::peduncle::PedunclePath;
 use crate::fruit::PeduncleChoice;
 use rfd::{AsyncFileDialog, FileHandle};
 
-/// What somebody answered.
-pub(in crate::ui) enum Asked {
-    /// These files or folders are to be opened.
+/// The answer to a dialog.
+pub enum Asked {
+    /// Files or folders to open.
     Open(Vec<PathBuf>),
-    /// The view is to be saved here, with so many pixels.
+    /// The path for a picture of the view, and its size in pixels.
     SaveImage(PathBuf, [u32; 2]),
-    /// Something is to be done about the peduncle.
+    /// A command with a path for the peduncle.
     Peduncle(PeduncleCommand),
-    /// Results are to be saved in a new folder within this one.
+    /// The folder that gets a new one with the results.
     SaveResults(PathBuf),
-    /// No dialog could be shown.
+    /// The reason why no dialog could be shown.
     Failed(String),
 }
 
-pub(in crate::ui) fn open_files(ctx: &egui::Context, answers: &Sender<Asked>) {
+pub fn open_files(ctx: &egui::Context, answers: &Sender<Asked>) {
     let dialog = AsyncFileDialog::new()
         .set_title("Open point clouds")
         .add_filter("Point clouds (PLY)", &["ply", "PLY"]);
@@ -34,7 +34,7 @@ pub(in crate::ui) fn open_files(ctx: &egui::Context, answers: &Sender<Asked>) {
     });
 }
 
-pub(in crate::ui) fn open_folder(ctx: &egui::Context, answers: &Sender<Asked>) {
+pub fn open_folder(ctx: &egui::Context, answers: &Sender<Asked>) {
     let answer = AsyncFileDialog::new()
         .set_title("Open a folder of point clouds")
         .pick_folder();
@@ -43,7 +43,7 @@ pub(in crate::ui) fn open_folder(ctx: &egui::Context, answers: &Sender<Asked>) {
     });
 }
 
-pub(in crate::ui) fn save_image(ctx: &egui::Context, answers: &Sender<Asked>, name: &str, size_px: [u32; 2]) {
+pub fn save_image(ctx: &egui::Context, answers: &Sender<Asked>, name: &str, size_px: [u32; 2]) {
     let answer = AsyncFileDialog::new()
         .set_title("Save the view")
         .set_file_name(name)
@@ -54,13 +54,8 @@ pub(in crate::ui) fn save_image(ctx: &egui::Context, answers: &Sender<Asked>, na
     });
 }
 
-/// Asks for the peduncle's file, for the folder of clouds without it, or where to save it under `name`.
-pub(in crate::ui) fn peduncle_path(
-    ctx: &egui::Context,
-    answers: &Sender<Asked>,
-    wanted: PedunclePath,
-    name: &str,
-) {
+/// Asks for the peduncle's file, for the folder of clouds without it, or for the path to save it, by default `name`.
+pub fn peduncle_path(ctx: &egui::Context, answers: &Sender<Asked>, wanted: PedunclePath, name: &str) {
     let dialog = AsyncFileDialog::new();
     let clouds = |dialog: AsyncFileDialog| dialog.add_filter("Point clouds (PLY)", &["ply", "PLY"]);
     let choose = |choice| Asked::Peduncle(PeduncleCommand::Choose(choice));
@@ -89,8 +84,8 @@ pub(in crate::ui) fn peduncle_path(
     }
 }
 
-/// Asks for the folder in which a new one gets the results.
-pub(in crate::ui) fn save_results(ctx: &egui::Context, answers: &Sender<Asked>) {
+/// Asks for the folder that gets a new one with the results.
+pub fn save_results(ctx: &egui::Context, answers: &Sender<Asked>) {
     let answer = AsyncFileDialog::new()
         .set_title("Save the results in a new folder within")
         .pick_folder();
@@ -99,7 +94,7 @@ pub(in crate::ui) fn save_results(ctx: &egui::Context, answers: &Sender<Asked>) 
     });
 }
 
-/// What is said where the desktop has no dialogs; that is not told apart from a refusal otherwise.
+/// The message on a desktop without dialogs, which answers like a person who cancels.
 const NO_DIALOG: &str = "This desktop offers no file dialogs (xdg-desktop-portal or zenity would). Drop files on the window, \
                          or name them on the command line; “axiscope render” draws pictures.";
 
@@ -107,7 +102,7 @@ fn path_of(handle: &FileHandle) -> PathBuf {
     handle.path().to_owned()
 }
 
-/// Dialogs are made on the interface's thread, as some systems want it, and waited for on another.
+/// Waits for a dialog on a thread of its own. The dialog itself was made on the interface's, as some systems require.
 fn wait(
     ctx: &egui::Context,
     answers: &Sender<Asked>,
@@ -118,12 +113,12 @@ fn wait(
     let thread = std::thread::Builder::new().name("dialog".into()).spawn(move || {
         let asked = Instant::now();
         let answer = pollster::block_on(answer).or_else(|| {
-            // Nobody is so quick to say no: there was no dialog.
+            // No person cancels so quickly: there was no dialog.
             let is_missing = asked.elapsed() < Duration::from_millis(400);
             is_missing.then(|| Asked::Failed(NO_DIALOG.into()))
         });
         if let Some(answer) = answer {
-            // Nobody listens any more where the window has closed meanwhile.
+            // The receiver is gone if the window has closed meanwhile.
             let _ = waiting.send(answer);
             ctx.request_repaint();
         }

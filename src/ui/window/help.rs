@@ -1,10 +1,10 @@
-//! The sheet of keys, made from the table that the keys themselves come from.
+//! The sheet of keys, made from the table of actions.
 
 use egui::{Modal, RichText};
 
 use crate::ui::action::{Action, Group};
 
-/// What the mouse does in the view.
+/// The gestures of the mouse, and their effects.
 const MOUSE: [(&str, &str); 10] = [
     ("Drag", "turn"),
     ("Right or middle drag, Shift + drag", "move"),
@@ -18,7 +18,7 @@ const MOUSE: [(&str, &str); 10] = [
     ("Setting an axis: right drag", "turn the view"),
 ];
 
-/// Shows the sheet; says whether it is to stay.
+/// Shows the sheet; returns whether it stays open.
 pub fn show(ctx: &egui::Context, actions: &[Action]) -> bool {
     let modal = Modal::new(egui::Id::unique("help")).show(ctx, |ui| {
         let room = ctx.content_rect().size();
@@ -30,7 +30,7 @@ pub fn show(ctx: &egui::Context, actions: &[Action]) -> bool {
             .auto_shrink([false, true])
             .show(ui, |ui| {
                 let columns = if room.x > 780.0 { 3 } else { 1 };
-                // Room for the bar at the side.
+                // Space for the scroll bar.
                 ui.set_max_width(ui.available_width() - 16.0);
                 ui.spacing_mut().item_spacing.x = 24.0;
                 ui.columns(columns, |columns| {
@@ -67,8 +67,8 @@ fn section(ui: &mut egui::Ui, ctx: &egui::Context, group: Group, actions: &[Acti
 
 fn mouse(ui: &mut egui::Ui) {
     title(ui, "Mouse");
-    for (gesture, what) in MOUSE {
-        row(ui, what, gesture);
+    for (gesture, effect) in MOUSE {
+        row(ui, effect, gesture);
     }
     ui.add_space(8.0);
 }
@@ -77,9 +77,9 @@ fn title(ui: &mut egui::Ui, text: &str) {
     ui.label(RichText::new(text).strong());
 }
 
-fn row(ui: &mut egui::Ui, what: &str, keys: &str) {
+fn row(ui: &mut egui::Ui, title: &str, keys: &str) {
     ui.horizontal(|ui| {
-        ui.label(what);
+        ui.label(title);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.label(RichText::new(keys).weak());
         });

@@ -1,11 +1,11 @@
-//! The bar at the top: menus made from the table of actions, and the way from cloud to cloud.
+//! The bar at the top: menus made from the table of actions, and the steps from cloud to cloud.
 
 use egui::{MenuBar, RichText};
 
 use crate::app::{Command, State};
 use crate::ui::action::{Act, Action, Group, key_text};
 
-/// Shows the bar; what is chosen goes to `acts`.
+/// Shows the bar; the chosen act goes to `acts`.
 pub fn show(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
     MenuBar::new().ui(ui, |ui| {
         for group in Group::ALL {
@@ -20,7 +20,7 @@ pub fn show(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec
             });
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            way(ui, state, actions, acts);
+            steps(ui, state, actions, acts);
         });
     });
 }
@@ -58,7 +58,7 @@ fn item(ui: &mut egui::Ui, action: &Action, acts: &mut Vec<Act>) {
 fn recent(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
     ui.separator();
     ui.add_enabled_ui(!state.recent.is_empty(), |ui| {
-        ui.menu_button("Opened lately", |ui| {
+        ui.menu_button("Recently opened", |ui| {
             for path in &state.recent {
                 let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
                 let button = ui.button(name).on_hover_text(path.display().to_string());
@@ -71,8 +71,8 @@ fn recent(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
     });
 }
 
-/// The name of the cloud, its place among the others, and the buttons to those before and after.
-fn way(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
+/// Shows the name of the cloud, its place among the others, and the buttons to the previous and the next.
+fn steps(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec<Act>) {
     let (Some(source), Some(current)) = (state.source(), state.current) else {
         return;
     };

@@ -7,15 +7,15 @@ use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use crate::app::Session;
 use crate::ui::window::{Start, Window};
 
-/// Why there is no window.
+/// The reason why the window could not be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
-    /// There is no screen.
+    /// No display is available.
     #[error(
         "there is no display to open a window on ({0}); set DISPLAY or WAYLAND_DISPLAY, or draw pictures without a window: axiscope render CLOUD -o PICTURE.png"
     )]
     NoDisplay(String),
-    /// There is nothing to draw with.
+    /// No graphics adapter is available.
     #[error(
         "no graphics adapter can draw the window ({0}); install a Vulkan driver, for instance Mesa's software driver (on Debian and Ubuntu: apt install mesa-vulkan-drivers). “axiscope render” draws pictures without a window, and the other commands need no graphics at all"
     )]
@@ -25,22 +25,22 @@ pub enum OpenError {
     Other(String),
 }
 
-/// Where this desktop keeps settings; `None` where there is no home.
+/// Returns the path of the stored session; `None` without a home directory.
 pub fn session_path() -> Option<PathBuf> {
     let folders = directories::ProjectDirs::from("", "", "axiscope")?;
     Some(folders.config_dir().join("session.json"))
 }
 
-/// Where this desktop keeps what can be worked out again; `None` where there is no home.
+/// Returns the folder of cached rows and pictures; `None` without a home directory.
 fn cache_path() -> Option<PathBuf> {
     let folders = directories::ProjectDirs::from("", "", "axiscope")?;
     Some(folders.cache_dir().join("clouds"))
 }
 
-/// Opens a window on `paths`, or on what was open last, or on a sample; returns when it is closed.
+/// Opens a window on `paths`, or on the clouds of the last session, or on a sample; returns when it is closed.
 ///
 /// # Errors
-/// Where there is no display, or nothing to draw with.
+/// Returns an error if no display or no graphics adapter is available.
 pub fn open_window(paths: Vec<PathBuf>) -> Result<(), OpenError> {
     let session_path = session_path();
     let (session, problem) = match session_path.as_deref().map(Session::read) {
@@ -50,7 +50,7 @@ pub fn open_window(paths: Vec<PathBuf>) -> Result<(), OpenError> {
     };
     let size = session.window_size.unwrap_or([1360.0, 860.0]);
     let mut setup = WgpuSetupCreateNew::without_display_handle();
-    // What OpenGL can do is not enough to draw points: better a sentence than a fault.
+    // OpenGL cannot draw the points: an error message is better than a crash.
     setup.instance_descriptor.backends &= wgpu::Backends::PRIMARY;
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()

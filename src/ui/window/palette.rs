@@ -1,32 +1,24 @@
-//! The command palette: every action by its name.
+//! The command palette, which finds any action by its name.
+
+use std::ops::ControlFlow;
 
 use egui::{Key, Modal, Modifiers, RichText};
 
 use crate::ui::action::{Act, Action};
 
-/// What the palette remembers while it is open.
+/// The command palette while it is open.
 #[derive(Debug, Clone, Default)]
 pub struct Palette {
     text: String,
     chosen: usize,
 }
 
-/// What came of a frame of it.
-pub enum Answer {
-    /// It stays open.
-    Open,
-    /// It was closed.
-    Closed,
-    /// Something was chosen.
-    Chosen(Act),
-}
-
 impl Palette {
-    /// Shows the palette.
-    pub fn show(&mut self, ctx: &egui::Context, actions: &[Action]) -> Answer {
+    /// Shows the palette; breaks when it closes, with the chosen act if there is one.
+    pub fn show(&mut self, ctx: &egui::Context, actions: &[Action]) -> ControlFlow<Option<Act>> {
         let found: Vec<&Action> = actions.iter().filter(|a| self.matches(a)).collect();
         self.chosen = self.chosen.min(found.len().saturating_sub(1));
-        // Before the field gets them.
+        // The palette takes these keys before the field does.
         let (up, down, enter) = ctx.input_mut(|i| {
             (
                 i.consume_key(Modifiers::NONE, Key::ArrowUp),
@@ -59,7 +51,7 @@ impl Palette {
                 .auto_shrink([false, false])
                 .show(ui, |ui| {
                     if found.is_empty() {
-                        ui.label("No command is called so.");
+                        ui.label("No command has such a name.");
                     }
                     for (i, action) in found.iter().enumerate() {
                         let is_chosen = i == self.chosen;
@@ -79,13 +71,13 @@ impl Palette {
                 });
         });
         match picked {
-            Some(action) if action.is_enabled => Answer::Chosen(action.act.clone()),
-            _ if modal.should_close() => Answer::Closed,
-            _ => Answer::Open,
+            Some(action) if action.is_enabled => ControlFlow::Break(Some(action.act.clone())),
+            _ if modal.should_close() => ControlFlow::Break(None),
+            _ => ControlFlow::Continue(()),
         }
     }
 
-    /// Every word of the text is somewhere in the action's name.
+    /// Whether every word of the text is part of the action's name.
     fn matches(&self, action: &Action) -> bool {
         let name = format!("{} {}", action.group.title(), action.title).to_lowercase();
         self.text

@@ -1,4 +1,4 @@
-//! Which panel draws what.
+//! The contents of each pane.
 
 use egui::{Frame, Margin, Panel, ScrollArea, WidgetText};
 use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse};
@@ -7,23 +7,23 @@ use crate::app::{Command, PeduncleCommand, State, TrueAxesCommand};
 use crate::render::Viewport;
 use crate::ui::action::{Act, Action, WindowAct};
 use crate::ui::inspector::{plane_bar, view_bar, view3d};
-use crate::ui::many::{self, FolderAnswer};
+use crate::ui::many::{self, PanelRequest};
 use crate::ui::pane::Pane;
 use crate::ui::panels::{clouds, contributions, hemisphere, parameters, ranking, score_map, why_this_score};
 use crate::ui::widgets::notice;
 use crate::ui::{peduncle, true_axes};
 
-/// What the panels are given, and what they say.
-pub(in crate::ui) struct Panes<'a> {
-    pub(in crate::ui) state: &'a State,
-    pub(in crate::ui) actions: &'a [Action],
-    pub(in crate::ui) is_gpu: bool,
-    pub(in crate::ui) acts: &'a mut Vec<Act>,
-    pub(in crate::ui) commands: &'a mut Vec<Command>,
-    /// The 3-D view's size, where it is shown.
-    pub(in crate::ui) viewport: &'a mut Option<Viewport>,
-    /// Whether somebody has arranged the panels otherwise.
-    pub(in crate::ui) was_moved: &'a mut bool,
+/// The state that the panes show, and the commands that they give.
+pub struct Panes<'a> {
+    pub state: &'a State,
+    pub actions: &'a [Action],
+    pub is_gpu: bool,
+    pub acts: &'a mut Vec<Act>,
+    pub commands: &'a mut Vec<Command>,
+    /// The 3-D view's size; `None` while it is hidden.
+    pub viewport: &'a mut Option<Viewport>,
+    /// Whether the user has moved a pane.
+    pub was_moved: &'a mut bool,
 }
 
 impl Behavior<Pane> for Panes<'_> {
@@ -50,7 +50,7 @@ impl Behavior<Pane> for Panes<'_> {
     }
 
     fn on_edit(&mut self, action: EditAction) {
-        // A panel that is hidden under the cursor cannot say itself that nothing is previewed any more.
+        // A pane that gets hidden under the cursor cannot end its preview itself.
         if action == EditAction::TabSelected && self.state.previewed.is_some() {
             self.commands.push(Command::Preview(None));
         }
@@ -126,9 +126,9 @@ impl Panes<'_> {
             Pane::Table | Pane::Charts | Pane::Gallery | Pane::Sweep => {
                 if let Some(answer) = many::show(ui, pane, state, commands) {
                     self.acts.push(Act::Window(match answer {
-                        FolderAnswer::ShowView => WindowAct::Show(Pane::View),
-                        FolderAnswer::SaveResults => WindowAct::SaveResults,
-                        FolderAnswer::CopyCommandLine => WindowAct::CopyEvaluation,
+                        PanelRequest::ShowView => WindowAct::Show(Pane::View),
+                        PanelRequest::SaveResults => WindowAct::SaveResults,
+                        PanelRequest::CopyCommandLine => WindowAct::CopyEvaluation,
                     }));
                 }
             }

@@ -1,29 +1,23 @@
-//! Asks how large a saved view is to be.
+//! The dialog for the size of a saved picture.
+
+use std::ops::ControlFlow;
 
 use egui::{DragValue, Modal};
 
 use crate::render::MAX_SIDE_PX;
 
-/// What was filled in.
+/// The fields of the dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::ui) struct SaveImage {
+pub struct SaveImage {
     /// The view's own size in physical pixels.
     view_px: [u32; 2],
     size_px: [u32; 2],
     keeps_shape: bool,
 }
 
-/// What came of a frame of it.
-pub(in crate::ui) enum Answer {
-    Open,
-    Closed,
-    /// The place is to be asked for; the picture has so many pixels.
-    Chosen([u32; 2]),
-}
-
 impl SaveImage {
-    /// For a view of that size: twice as many pixels each way, for print.
-    pub(in crate::ui) fn new(view_px: [u32; 2]) -> Self {
+    /// Begins with twice the view's size, for print.
+    pub fn new(view_px: [u32; 2]) -> Self {
         Self {
             view_px,
             size_px: view_px.map(|side| (2 * side).clamp(1, MAX_SIDE_PX)),
@@ -31,7 +25,8 @@ impl SaveImage {
         }
     }
 
-    pub(in crate::ui) fn show(&mut self, ctx: &egui::Context) -> Answer {
+    /// Shows the dialog; breaks when it closes, with the picture's size in pixels unless it was canceled.
+    pub fn show(&mut self, ctx: &egui::Context) -> ControlFlow<Option<[u32; 2]>> {
         let modal = Modal::new(egui::Id::unique("save image")).show(ctx, |ui| {
             ui.set_max_width(360.0);
             ui.heading("Save the view as a picture");
@@ -64,10 +59,9 @@ impl SaveImage {
             .inner
         });
         match modal.inner {
-            (true, _) => Answer::Chosen(self.size_px),
-            (_, true) => Answer::Closed,
-            _ if modal.should_close() => Answer::Closed,
-            _ => Answer::Open,
+            (true, _) => ControlFlow::Break(Some(self.size_px)),
+            (false, is_canceled) if is_canceled || modal.should_close() => ControlFlow::Break(None),
+            _ => ControlFlow::Continue(()),
         }
     }
 
@@ -76,7 +70,7 @@ impl SaveImage {
         if self.keeps_shape {
             let other = 1 - side;
             let ratio = f64::from(self.view_px[other]) / f64::from(self.view_px[side].max(1));
-            // Clamped to what a picture may have.
+            // Clamped to the sides that a picture may have.
             self.size_px[other] = (f64::from(value) * ratio)
                 .round()
                 .clamp(1.0, f64::from(MAX_SIDE_PX)) as u32;

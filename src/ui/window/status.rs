@@ -1,22 +1,12 @@
-//! The bar at the bottom: what is being done and how far it is, what came out, and what went wrong.
+//! The bar at the bottom: messages, the progress of the analysis, its result, and its warnings.
 
-use egui::{ProgressBar, RichText};
+use egui::RichText;
 
 use crate::app::{Command, State};
-use crate::method::Stage;
 use crate::method::axis_error_rad;
+use crate::ui::widgets::controls::button;
+use crate::ui::widgets::progress::stage_progress;
 use crate::view::lead_in_words;
-
-/// What a stage is called while it runs.
-pub fn stage_name(stage: Stage) -> &'static str {
-    match stage {
-        Stage::Filters => "Filters",
-        Stage::Normals => "Normals",
-        Stage::Center => "Fruit center",
-        Stage::PlaneTerms => "Candidate planes",
-        Stage::Scores => "Scores",
-    }
-}
 
 /// Shows the bar.
 pub fn show(ui: &mut egui::Ui, state: &State, commands: &mut Vec<Command>) {
@@ -36,29 +26,13 @@ pub fn show(ui: &mut egui::Ui, state: &State, commands: &mut Vec<Command>) {
     }
     ui.horizontal(|ui| {
         if let Some(progress) = state.progress {
-            if ui
-                .button("Cancel")
-                .on_hover_text("Call the analysis off (Esc)")
-                .clicked()
-            {
+            if button(ui, "Cancel", "Cancel the analysis (Esc)") {
                 commands.push(Command::Cancel);
             }
-            let name = progress.stage.map_or("Reading", stage_name);
-            let share = progress.share as f32;
-            let seconds = progress.elapsed.as_secs();
-            let text = if seconds >= 2 {
-                format!("{name} · {:.0} % · {seconds} s", 100.0 * share)
-            } else {
-                format!("{name} · {:.0} %", 100.0 * share)
-            };
-            ui.add(ProgressBar::new(share).desired_width(240.0).text(text));
+            ui.add(stage_progress(&progress).desired_width(240.0));
         } else if state.was_cancelled {
-            ui.label("The analysis was called off.");
-            if ui
-                .button("Analyze")
-                .on_hover_text("Analyze after all (F5)")
-                .clicked()
-            {
+            ui.label("The analysis was canceled.");
+            if button(ui, "Analyze", "Analyze now (F5)") {
                 commands.push(Command::Resume);
             }
         } else {
@@ -72,7 +46,7 @@ pub fn show(ui: &mut egui::Ui, state: &State, commands: &mut Vec<Command>) {
 
 fn result(ui: &mut egui::Ui, state: &State) {
     let Some(walked) = &state.walked else {
-        ui.label(RichText::new("Nothing is analyzed.").weak());
+        ui.label(RichText::new("No cloud is analyzed.").weak());
         return;
     };
     let analysis = &walked.analysis;
@@ -98,8 +72,8 @@ fn result(ui: &mut egui::Ui, state: &State) {
     }
 }
 
-/// A reference's source in words.
-pub fn reference_name(source: &str) -> &str {
+/// Returns the name of a reference's source.
+fn reference_name(source: &str) -> &str {
     match source {
         "simulation" => "simulated",
         "peduncle" => "peduncle's",

@@ -1,11 +1,11 @@
-//! Colors, sizes and letters of the interface.
+//! The colors, sizes and fonts of the interface.
 
 use egui::{Color32, CornerRadius, FontFamily, FontId, TextStyle, Theme, Visuals};
 
-/// Sets everything up, once.
+/// Sets up fonts, colors and spacing.
 pub fn set_up(ctx: &egui::Context) {
     let mut fonts = egui::FontDefinitions::default();
-    // For letters that the usual font lacks: combining marks, arrows, brackets.
+    // The usual font lacks combining marks, arrows and brackets.
     let name = "DejaVuSans".to_owned();
     let bytes = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");
     fonts
@@ -65,7 +65,7 @@ fn visuals(theme: Theme) -> Visuals {
     visuals
 }
 
-/// The program's theme as the interface knows it.
+/// Returns the interface's theme for the program's.
 pub fn interface_theme(theme: crate::view::Theme) -> Theme {
     match theme {
         crate::view::Theme::Dark => Theme::Dark,

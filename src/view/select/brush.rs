@@ -78,7 +78,7 @@ impl Brush {
     }
 }
 
-/// Clamped, so that whatever pixel is asked for has a cell.
+/// The cell of a pixel, clamped so that every pixel has one.
 fn cell(pixel: DVec2) -> [i32; 2] {
     (pixel / CELL_PX)
         .floor()

@@ -6,7 +6,7 @@ use super::Region;
 use crate::parallel::map_pieces;
 use crate::render::{Camera, Viewport};
 
-/// All points of a cloud in one view. Made once for a camera, and asked with every move of a brush.
+/// The projections of a cloud's points in one view. It is made once for a camera and serves every move of a brush.
 #[derive(Debug, Clone)]
 pub struct Screen {
     /// One per point, in logical pixels; not finite behind the camera.
@@ -31,7 +31,7 @@ impl Screen {
             };
             points[range].iter().map(one).collect()
         };
-        // Nobody calls this off.
+        // Without a watch, nothing is called off.
         let projected: Vec<(DVec2, f64)> = map_pieces(points.len(), PIECE, &(), project)
             .unwrap_or_default()
             .concat();

@@ -11,7 +11,7 @@ use crate::helpers::in_window::{Windowed, apply, compare, press, settle, window_
 use crate::helpers::peppers::write_peppers;
 use axiscope::app::many::ManyCommand;
 use axiscope::app::{Command, Session};
-use axiscope::evaluate::Tagged;
+use axiscope::evaluate::CloudTags;
 use tempfile::TempDir;
 
 /// A window on a folder of nine peppers and a file that is none, evaluated; two are tagged.
@@ -31,9 +31,9 @@ fn window_on_peppers() -> (TempDir, Windowed) {
 }
 
 fn tag(harness: &mut Windowed, place: usize, tags: &str, note: &str) {
-    let tagged = Tagged {
+    let tagged = CloudTags {
         note: note.into(),
-        ..Tagged::default().with_tags(tags)
+        ..CloudTags::default().with_tags(tags)
     };
     apply(harness, Command::Many(ManyCommand::Tag { place, tagged }));
 }

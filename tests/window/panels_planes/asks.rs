@@ -250,15 +250,15 @@ fn a_plane_is_typed_by_its_number_or_by_its_steps() {
 fn panels_say_why_there_is_nothing_to_show() {
     let panels: [Panel; 4] = [score_map::show, hemisphere::show, ranking::show, plane_bar::show];
     for panel in panels {
-        let harness = driven(new_app(), panel);
+        let harness = driven(driving::app(), panel);
         harness.get_by_label_contains("No cloud is open");
 
-        let mut app = new_app();
+        let mut app = driving::app();
         app.apply(Command::OpenSample(Sample::Pepper));
         let harness = driven(app, panel);
         harness.get_by_label("pepper.ply is being analyzed.");
 
-        let mut app = new_app();
+        let mut app = driving::app();
         app.apply(Command::OpenSample(Sample::Pepper));
         app.update(Duration::ZERO);
         app.apply(Command::Cancel);

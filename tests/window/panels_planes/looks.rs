@@ -68,7 +68,7 @@ fn the_score_map_looks_as_before() {
     settle(&mut none);
     pictures.take(none, panel, large, Theme::Dark, 1.0, "score_map_no_plane");
     pictures.take(
-        new_app(),
+        driving::app(),
         panel,
         vec2(300.0, 200.0),
         Theme::Dark,

@@ -3,16 +3,17 @@
 mod asks;
 mod looks;
 
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use axiscope::app::{App, Command, PlaneChoice, Sample, Session, State};
+use axiscope::app::{App, Command, PlaneChoice, Sample, State};
 use axiscope::method::Preset;
 use axiscope::ui::inspector::plane_bar;
 use axiscope::ui::panels::{hemisphere, ranking, score_map};
 use egui::{Key, Rect, Theme, Ui, Vec2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
+
+use crate::helpers::driving::{self, act, settle};
 
 type Panel = fn(&mut Ui, &State, &mut Vec<Command>);
 
@@ -22,34 +23,14 @@ struct Bench {
     commands: Vec<Command>,
 }
 
-fn new_app() -> App {
-    let repaint = Arc::new(|| {});
-    App::new(Session::first(), &(repaint as _)).expect("threads start")
-}
-
-fn settle(app: &mut App) {
-    let begun = Instant::now();
-    loop {
-        app.update(Duration::from_millis(16));
-        if !app.is_busy() {
-            return;
-        }
-        assert!(
-            begun.elapsed() < Duration::from_mins(2),
-            "the analysis does not end"
-        );
-        std::thread::sleep(Duration::from_millis(2));
-    }
-}
-
 fn app_with(sample: Sample) -> App {
-    let mut app = new_app();
-    app.apply(Command::OpenSample(sample));
-    settle(&mut app);
+    let mut app = driving::app();
+    act(&mut app, Command::OpenSample(sample));
     assert!(app.state().analysis().is_some());
     app
 }
 
+/// Changes how clouds are analyzed, and waits for nothing.
 fn set(app: &mut App, change: impl FnOnce(&mut axiscope::fruit::Request)) {
     let mut request = app.state().settings.request.clone();
     change(&mut request);

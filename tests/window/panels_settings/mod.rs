@@ -4,14 +4,13 @@
 mod others;
 mod parameters;
 
-use std::sync::Arc;
-use std::time::Duration;
-
-use axiscope::app::{App, Command, Sample, Session};
+use axiscope::app::{App, Command, Sample};
 use axiscope::ui::WindowAct;
 use axiscope::ui::panels::{clouds, contributions, parameters as parameters_panel, why_this_score};
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{Harness, SnapshotOptions};
+
+use crate::helpers::driving;
 
 /// A program, what is drawn of it, and what that asked for.
 struct Bench {
@@ -31,15 +30,7 @@ enum Panel {
 
 impl Bench {
     fn settle(&mut self) {
-        let begin = std::time::Instant::now();
-        loop {
-            self.app.update(Duration::from_millis(16));
-            if !self.app.is_busy() {
-                return;
-            }
-            assert!(begin.elapsed() < Duration::from_mins(2), "the workers do not end");
-            std::thread::sleep(Duration::from_millis(2));
-        }
+        driving::settle(&mut self.app);
     }
 
     fn apply(&mut self, command: Command) {
@@ -49,9 +40,8 @@ impl Bench {
 }
 
 fn bench(panel: Panel, sample: Option<Sample>) -> Bench {
-    let app = App::new(Session::first(), &(Arc::new(|| {}) as _)).expect("threads start");
     let mut bench = Bench {
-        app,
+        app: driving::app(),
         panel,
         said: Vec::new(),
         answer: None,

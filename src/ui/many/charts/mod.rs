@@ -6,7 +6,7 @@ mod guides;
 use egui::{Align2, Color32, Id, Key, Response, RichText, Role, Stroke, Ui, WidgetInfo, vec2};
 use egui_plot::{Bar, BarChart, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points};
 
-use super::{FolderAnswer, bar};
+use super::{PanelRequest, bar};
 use crate::app::{Command, State};
 use crate::ui::widgets::controls::{small, warning_color};
 use data::{DISTANCE_BIN_CM, Data, FIG_8_DEG, FIG_12_DEG, FIG_13_DEG, Mark};
@@ -66,7 +66,7 @@ const BAR: Color32 = Color32::from_rgb(0x2b, 0x8c, 0xd6);
 const CURRENT: Color32 = Color32::from_rgb(0xe6, 0x9f, 0x00);
 
 /// Draws the panel.
-pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
+pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<PanelRequest> {
     let asked = bar::show(ui, state, commands);
     if asked.is_some() {
         return asked;
@@ -98,7 +98,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     }
     let place = chosen?;
     commands.push(Command::Show(place));
-    Some(FolderAnswer::ShowView)
+    Some(PanelRequest::ShowView)
 }
 
 /// Lists the clouds without an error, each as a link.

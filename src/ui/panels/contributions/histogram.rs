@@ -21,7 +21,7 @@ pub(in crate::ui) struct Histogram<'a> {
     pub(in crate::ui) picked_cm: Option<f64>,
 }
 
-/// Where the bars are.
+/// The place of the bars, and the scales of their axes.
 struct Frame {
     bars: Rect,
     most_cm: f64,
@@ -45,7 +45,7 @@ impl Frame {
 
 impl Histogram<'_> {
     pub(in crate::ui) fn show(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
-        // A line or two of text stand under it.
+        // One or two lines of text stand below.
         let height = (ui.available_height() - 44.0).clamp(130.0, 260.0);
         let (rect, response) =
             ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
@@ -79,7 +79,7 @@ impl Histogram<'_> {
         self.paint_last_bin(ui, &frame, &small);
         self.paint_marks(ui, &frame, &small);
         if let Some(at) = response.hover_pos().filter(|_| !response.dragged()) {
-            self.tell(response, frame.cm(at.x));
+            self.explain(response, frame.cm(at.x));
         }
     }
 
@@ -99,7 +99,7 @@ impl Histogram<'_> {
         {
             let to = frame.cm(at.x);
             let (low, high) = (from.min(to), from.max(to));
-            // The last bin holds all that is above it.
+            // The last bin holds all higher contributions as well.
             let is_in_last_bin = high > frame.most_cm - self.contributions.bin_cm;
             let high = if is_in_last_bin { f64::INFINITY } else { high };
             let wanted = low..=high;
@@ -133,7 +133,7 @@ impl Histogram<'_> {
                 Some(brush) if !brush.contains(&middle) => dim,
                 _ => BARS,
             };
-            // The least that there is can be seen.
+            // Even a single point is visible.
             let top = frame.y(points as f64).min(frame.bars.bottom() - 1.0);
             let gap = if frame.bars.width() > 144.0 { 0.5 } else { 0.0 };
             let rect = Rect::from_min_max(
@@ -144,7 +144,7 @@ impl Histogram<'_> {
         }
     }
 
-    /// The contributions that a bin holds, but for what the last one holds beyond.
+    /// Returns the range of contributions in a bin; the last one holds those above as well.
     fn span(&self, bin: usize) -> (f64, f64) {
         let width = self.contributions.bin_cm;
         (bin as f64 * width, (bin + 1) as f64 * width)
@@ -195,8 +195,8 @@ impl Histogram<'_> {
         }
     }
 
-    /// What the bin under the cursor holds.
-    fn tell(&self, response: Response, cm: f64) {
+    /// Shows the contents of the bin under the cursor.
+    fn explain(&self, response: Response, cm: f64) {
         let last = self.contributions.counts.len().saturating_sub(1);
         // Not negative.
         let bin = ((cm / self.contributions.bin_cm) as usize).min(last);
@@ -216,7 +216,7 @@ impl Histogram<'_> {
     }
 }
 
-/// A step of 1, 2 or 5 times a power of ten that gives about `count` ticks up to `most`.
+/// Returns the step of 1, 2 or 5 times a power of ten that gives about `count` ticks up to `most`.
 fn step(most: f64, count: f64) -> f64 {
     let rough = most / count;
     let power = 10.0_f64.powf(rough.log10().floor());

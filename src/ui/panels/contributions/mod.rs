@@ -1,4 +1,4 @@
-//! The histogram of what the points of a plane add to its score, which is brushed to find them.
+//! The histogram of the points' contributions to the score of a plane; its brush finds points in the view.
 
 mod histogram;
 
@@ -10,11 +10,13 @@ use egui::{Key, RichText, Ui};
 use crate::app::inspector::look::Look;
 use crate::app::inspector::why::why;
 use crate::app::{Command, State};
+use crate::method::PlaneDetail;
 use crate::ui::widgets::controls::{hint, small};
+use crate::ui::widgets::memo::{ByAddress, memo};
 use crate::view::grouped;
 use histogram::Histogram;
 
-/// Shows the histogram, and says what is brushed.
+/// Shows the histogram, and the brushed range in words.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 4.0;
     let drawn = state
@@ -80,7 +82,7 @@ fn empty(ui: &mut Ui, state: &State) {
     }
 }
 
-/// What is brushed, in words, and how to clear it.
+/// Shows the brushed range in words, and the button that clears it.
 fn brushed(ui: &mut Ui, look: &Look, brush_cm: &RangeInclusive<f64>, commands: &mut Vec<Command>) {
     let Some(counted) = Counted::of(ui, look, brush_cm) else {
         return;
@@ -113,30 +115,25 @@ fn brushed(ui: &mut Ui, look: &Look, brush_cm: &RangeInclusive<f64>, commands: &
     }
 }
 
-/// What lies in the brush: counted once for each brush, not each frame.
-#[derive(Debug, Clone)]
+/// The points in the brush.
 struct Counted {
-    detail: Arc<crate::method::PlaneDetail>,
-    tau_cm_per_rad: f64,
-    brush_cm: RangeInclusive<f64>,
     points: usize,
     all_points: usize,
     share_of_sum: f64,
 }
 
 impl Counted {
-    fn of(ui: &Ui, look: &Look, brush_cm: &RangeInclusive<f64>) -> Option<Self> {
+    /// Counts the points once for each brush, not for each frame.
+    fn of(ui: &Ui, look: &Look, brush_cm: &RangeInclusive<f64>) -> Option<Arc<Self>> {
         let detail = look.detail.as_ref()?;
         let tau_cm_per_rad = look.analysis.as_ref()?.params.tau_cm_per_rad;
-        let memory = ui.make_persistent_id("counted");
-        let known = ui.data(|data| data.get_temp::<Self>(memory)).filter(|known| {
-            Arc::ptr_eq(&known.detail, detail)
-                && known.tau_cm_per_rad == tau_cm_per_rad
-                && known.brush_cm == *brush_cm
-        });
-        if known.is_some() {
-            return known;
-        }
+        let key = (ByAddress(detail.clone()), tau_cm_per_rad, brush_cm.clone());
+        Some(memo(ui.ctx(), ui.make_persistent_id("counted"), key, || {
+            Self::new(detail, tau_cm_per_rad, brush_cm)
+        }))
+    }
+
+    fn new(detail: &PlaneDetail, tau_cm_per_rad: f64, brush_cm: &RangeInclusive<f64>) -> Self {
         let (mut points, mut all_points, mut sum, mut all) = (0, 0, 0.0, 0.0);
         for partner in detail.points.iter().filter_map(|point| point.partner) {
             let score_cm = partner.score_cm(tau_cm_per_rad);
@@ -145,16 +142,11 @@ impl Counted {
                 (points, sum) = (points + 1, sum + score_cm);
             }
         }
-        let counted = Self {
-            detail: detail.clone(),
-            tau_cm_per_rad,
-            brush_cm: brush_cm.clone(),
+        Self {
             points,
             all_points,
             share_of_sum: if all > 0.0 { sum / all } else { 0.0 },
-        };
-        ui.data_mut(|data| data.insert_temp(memory, counted.clone()));
-        Some(counted)
+        }
     }
 }
 

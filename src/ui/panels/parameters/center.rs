@@ -3,11 +3,13 @@
 use egui::Ui;
 use glam::DVec3;
 
-use super::cloud::{Triple, unit_of};
+use super::cloud::unit_of;
 use super::defaults;
 use crate::app::{Command, State, Tool};
 use crate::method::{Aggregation, CenterMethod, Preset, RandomSearch};
-use crate::ui::widgets::controls::{Choice, Edit, Number, choose, count, hint, row, section};
+use crate::ui::widgets::controls::{
+    Choice, Coordinates, Edit, Number, choice_row, coordinates, count, hint, row, section, toggle,
+};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Method {
@@ -27,7 +29,7 @@ impl Method {
         }
     }
 
-    /// What it does, and where it is in the paper.
+    /// Returns its explanation, with the place in the paper.
     fn tip(self) -> &'static str {
         match self {
             Self::Equidistant => {
@@ -44,9 +46,9 @@ impl Method {
     }
 }
 
-pub(in crate::ui) fn show(ui: &mut Ui, state: &State, edit: &mut Edit<'_>, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, state: &State, edit: &mut Edit<'_>, commands: &mut Vec<Command>) {
     let params = &edit.request.params;
-    // Of the reading that the score follows, so that a reset leads back to a preset.
+    // The default in the reading that the score follows, so that a reset leads back to a preset.
     let default = defaults(match params.aggregation {
         Aggregation::Mean => Preset::AsIntended,
         Aggregation::Sum => Preset::AsPrinted,
@@ -59,8 +61,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, edit: &mut Edit<'_>, comma
         let moves = state.tool == Tool::MoveCenter;
         let tip = "Dragging in the view then moves the fruit center instead of the camera, in the plane of \
                    the screen.";
-        let button = egui::Button::selectable(moves, "Move in the view").frame_when_inactive(true);
-        if ui.add(button).on_hover_text(tip).clicked() {
+        if toggle(ui, moves, "Move in the view", tip) {
             commands.push(Command::Use(if moves {
                 Tool::Navigate
             } else {
@@ -80,24 +81,18 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, edit: &mut Edit<'_>, comma
 }
 
 fn method(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
-    let tip = "How the point p_c is found that every candidate plane goes through (§ 2.4, Eq. 3).";
+    let tip = "How p_c is found, the point that every candidate plane goes through (§ 2.4, Eq. 3).";
     let center = &mut edit.request.params.center;
     let choice = |method: Method, text: &str| Choice::new(method, text, method.tip());
-    let chosen = row(ui, "Method", tip, |ui| {
-        choose(
-            ui,
-            "Method of the fruit center",
-            &Method::of(center),
-            tip,
-            vec![
-                choice(Method::Equidistant, "equidistant"),
-                choice(Method::MeanRms, "mean-rms"),
-                choice(Method::Sphere, "sphere"),
-                choice(Method::Given, "given by X, Y, Z"),
-            ],
-        )
-    });
-    // What was set for the random search outlives a look at the other methods.
+    let choices = vec![
+        choice(Method::Equidistant, "equidistant"),
+        choice(Method::MeanRms, "mean-rms"),
+        choice(Method::Sphere, "sphere"),
+        choice(Method::Given, "given by X, Y, Z"),
+    ];
+    let now = Method::of(center);
+    let chosen = choice_row(ui, "Method", "Method of the fruit center", &now, tip, choices);
+    // The settings of the random search outlive a look at the other methods.
     let memory = ui.make_persistent_id("random search");
     if let Some(search) = center.search() {
         ui.data_mut(|data| data.insert_temp(memory, search));
@@ -110,7 +105,7 @@ fn method(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
         Some(Method::Equidistant) => *center = CenterMethod::Equidistant(search()),
         Some(Method::MeanRms) => *center = CenterMethod::MeanRms(search()),
         Some(Method::Sphere) => *center = CenterMethod::Sphere,
-        // From where it is.
+        // A given center begins where the computed one is.
         Some(Method::Given) => {
             *center = CenterMethod::Given(state.analysis().map_or(DVec3::ZERO, |a| a.center));
         }
@@ -124,8 +119,8 @@ fn settings(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
         CenterMethod::Equidistant(search) | CenterMethod::MeanRms(search) => {
             let default = RandomSearch::default();
             let tip = format!(
-                "How many random points the center is picked from (§ 2.4). {} unless changed; more find it \
-                 more closely.",
+                "The number of random points that the center is picked from (§ 2.4). {} unless changed; with more it \
+                 is found more closely.",
                 default.count
             );
             let response = row(ui, "Random points", &tip, |ui| {
@@ -134,17 +129,15 @@ fn settings(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
             edit.note(&response, "center samples");
             let tip = "How widely the random points are scattered about the cloud's mean, in multiples of the \
                        cloud's own spread.";
-            let response = row(ui, "Spread", tip, |ui| {
-                Number {
-                    name: "Spread of the random points, in multiples of the cloud's",
-                    suffix: " × cloud",
-                    range: 0.01..=100.0,
-                    speed: 0.01,
-                    decimals: 2,
-                    width: Number::WIDTH,
-                }
-                .show(ui, &mut search.spread, tip)
-            });
+            let number = Number {
+                name: "Spread of the random points, in multiples of the cloud's",
+                suffix: " × cloud",
+                range: 0.01..=100.0,
+                speed: 0.01,
+                decimals: 2,
+                width: Number::WIDTH,
+            };
+            let response = number.row(ui, "Spread", &mut search.spread, tip);
             edit.note(&response, "center spread");
             let tip = "The seed of the random points: the same seed gives the same points on every machine.";
             let response = row(ui, "Seed", tip, |ui| {
@@ -160,7 +153,7 @@ fn settings(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
         }
         CenterMethod::Sphere => {}
         CenterMethod::Given(place) => {
-            let response = Triple {
+            let response = Coordinates {
                 name: "Center",
                 tip: "p_c in the file's unit and frame.",
                 unit: unit_of(state),
@@ -174,16 +167,7 @@ fn settings(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
         .analysis()
         .filter(|_| !matches!(center, CenterMethod::Given(_)) && !state.true_axes.is_blind)
     {
-        let unit = unit_of(state);
-        let place = analysis.center;
-        let decimals = super::cloud::decimals(unit);
-        let found = format!(
-            "Found at {:.decimals$}, {:.decimals$}, {:.decimals$}{}",
-            place.x,
-            place.y,
-            place.z,
-            unit.map_or(String::new(), |unit| format!(" {unit}"))
-        );
+        let found = format!("Found at {}", coordinates(analysis.center, unit_of(state)));
         hint(
             ui,
             if state.is_stale {

@@ -5,16 +5,17 @@ use std::num::NonZeroUsize;
 use egui::Ui;
 
 use crate::method::{Filters, OutlierFilter};
-use crate::ui::widgets::controls::{Edit, Number, count, row, section};
+use crate::ui::widgets::controls::{Edit, Number, checkbox, count, row, section};
 
-/// What a filter begins with when it is turned on.
+/// The outlier filter as it is turned on.
 const OUTLIERS: OutlierFilter = OutlierFilter {
     neighbors: const { NonZeroUsize::new(20).unwrap() },
     std_ratio: 1.0,
 };
+/// The edge of the voxel grid as it is turned on, in centimeters.
 const VOXEL_CM: f64 = 0.2;
 
-pub(in crate::ui) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
+pub(super) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
     let differs = edit.request.params.filters != Filters::default();
     let is_reset = section(ui, "Filters", false, differs, |ui| {
         outliers(ui, edit);
@@ -27,18 +28,11 @@ pub(in crate::ui) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
 }
 
 fn sample(ui: &mut Ui, edit: &mut Edit<'_>) {
-    let tip = "Of a cloud of more points a sample of at most so many is analyzed, thinned evenly by a voxel grid; \
+    let tip = "Of a larger cloud, a sample of at most this many points is analyzed, thinned evenly by a voxel grid; \
                the result says so, and all points are colored by it.";
+    let (name, range) = ("Points that are analyzed at most", Filters::FEWEST..=100_000_000);
     let most = &mut edit.request.params.filters.max_points;
-    let response = row(ui, "Most points", tip, |ui| {
-        count(
-            ui,
-            "Points that are analyzed at most",
-            most,
-            Filters::FEWEST..=100_000_000,
-            tip,
-        )
-    });
+    let response = row(ui, "Most points", tip, |ui| count(ui, name, most, range, tip));
     edit.note(&response, "sample");
 }
 
@@ -46,42 +40,31 @@ fn outliers(ui: &mut Ui, edit: &mut Edit<'_>) {
     let mut filter = edit.request.params.filters.outliers;
     let mut is_on = filter.is_some();
     let tip = "Leave out points whose mean distance to their neighbors is far above the cloud's. The paper's \
-               data were filtered so (§ 2.1).";
-    if ui
-        .checkbox(&mut is_on, "Leave out outliers")
-        .on_hover_text(tip)
-        .changed()
-    {
+               data were filtered in this way (§ 2.1).";
+    if checkbox(ui, &mut is_on, "Leave out outliers", tip) {
         filter = is_on.then_some(OUTLIERS);
     }
     if let Some(filter) = &mut filter {
         ui.indent("outliers", |ui| {
-            let tip = "How many nearest points each point's mean distance is taken over.";
+            let tip = "The number of nearest points over which each point's mean distance is taken.";
+            let name = "Neighbors of the outlier filter";
             let mut neighbors = filter.neighbors.get();
             let response = row(ui, "Neighbors", tip, |ui| {
-                count(
-                    ui,
-                    "Neighbors of the outlier filter",
-                    &mut neighbors,
-                    1..=100_000,
-                    tip,
-                )
+                count(ui, name, &mut neighbors, 1..=100_000, tip)
             });
             filter.neighbors = NonZeroUsize::new(neighbors).unwrap_or(filter.neighbors);
             edit.note(&response, "outlier neighbors");
-            let tip = "Standard deviations above the mean beyond which a point is an outlier. Smaller leaves \
-                       out more.";
-            let response = row(ui, "Beyond", tip, |ui| {
-                Number {
-                    name: "Standard deviations beyond which a point is an outlier",
-                    suffix: " std. dev.",
-                    range: 0.01..=100.0,
-                    speed: 0.01,
-                    decimals: 2,
-                    width: Number::WIDTH,
-                }
-                .show(ui, &mut filter.std_ratio, tip)
-            });
+            let tip = "Standard deviations above the mean beyond which a point is an outlier. A smaller number \
+                       leaves out more.";
+            let number = Number {
+                name: "Standard deviations beyond which a point is an outlier",
+                suffix: " std. dev.",
+                range: 0.01..=100.0,
+                speed: 0.01,
+                decimals: 2,
+                width: Number::WIDTH,
+            };
+            let response = number.row(ui, "Beyond", &mut filter.std_ratio, tip);
             edit.note(&response, "outlier ratio");
         });
     }
@@ -91,28 +74,22 @@ fn outliers(ui: &mut Ui, edit: &mut Edit<'_>) {
 fn voxels(ui: &mut Ui, edit: &mut Edit<'_>) {
     let mut edge_cm = edit.request.params.filters.voxel_cm;
     let mut is_on = edge_cm.is_some();
-    let tip = "Thin the cloud to one point a cube of this edge, so that near and far parts count alike. The \
-               paper's data were filtered so (§ 2.1).";
-    if ui
-        .checkbox(&mut is_on, "Thin to a voxel grid")
-        .on_hover_text(tip)
-        .changed()
-    {
+    let tip = "Thin the cloud to one point per cube of this edge, so that near and far parts have the same weight. \
+               The paper's data were filtered in this way (§ 2.1).";
+    if checkbox(ui, &mut is_on, "Thin to a voxel grid", tip) {
         edge_cm = is_on.then_some(VOXEL_CM);
     }
     if let Some(edge_cm) = &mut edge_cm {
         ui.indent("voxels", |ui| {
-            let response = row(ui, "Edge", tip, |ui| {
-                Number {
-                    name: "Voxel edge in centimeters",
-                    suffix: " cm",
-                    range: 0.001..=1000.0,
-                    speed: 0.005,
-                    decimals: 3,
-                    width: Number::WIDTH,
-                }
-                .show(ui, edge_cm, tip)
-            });
+            let number = Number {
+                name: "Voxel edge in centimeters",
+                suffix: " cm",
+                range: 0.001..=1000.0,
+                speed: 0.005,
+                decimals: 3,
+                width: Number::WIDTH,
+            };
+            let response = number.row(ui, "Edge", edge_cm, tip);
             edit.note(&response, "voxel");
         });
     }

@@ -1,4 +1,4 @@
-//! The parameters of the analysis: every number and choice that the result depends on.
+//! The parameters of the analysis: every number and choice that determines the result.
 
 mod center;
 mod cloud;
@@ -8,13 +8,11 @@ mod scoring;
 
 use egui::Ui;
 
-pub(in crate::ui) use cloud::{Triple, decimals};
-
 use crate::app::{Command, State};
 use crate::method::{Params, Preset};
 use crate::ui::widgets::controls::{Edit, caution};
 
-/// Shows the parameters, and says what is to be changed.
+/// Shows the parameters.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let mut edit = Edit::of(&state.settings.request);
     ui.spacing_mut().item_spacing.y = 4.0;
@@ -30,11 +28,11 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     edit.say(commands);
 }
 
-/// The preset: which reading of the paper is followed.
+/// Shows the two presets, each a reading of the paper.
 fn reading(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let chosen = state.settings.request.params.preset();
     ui.label("Reading of the paper").on_hover_text(
-        "What Eq. 3 (the fruit center) and § 2.5 (how scores are added up) are taken to mean. Sets the \
+        "The interpretation of Eq. 3 (the fruit center) and § 2.5 (how scores are added up). Sets the \
          center's method, the score and the least share of partners; everything else stays.",
     );
     ui.horizontal(|ui| {
@@ -43,14 +41,14 @@ fn reading(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             (
                 Preset::AsIntended,
                 "As intended",
-                "What the words around the equations mean: the point equidistant from the surface, the mean \
+                "By the words around the equations: the point equidistant from the surface, the mean \
                  score, and only planes for which at least 30 % of the points have a partner.",
             ),
             (
                 Preset::AsPrinted,
                 "As printed",
-                "Word for word: the RMS distance of Eq. 3, the sum of the scores, and every plane in the \
-                 running. Planes that leave hardly a point with a partner win.",
+                "By the equations themselves: the RMS distance of Eq. 3, the sum of the scores, and every plane in \
+                 the running. Planes that leave hardly a point with a partner win.",
             ),
         ] {
             let button = egui::Button::selectable(chosen == Some(preset), text)
@@ -70,7 +68,7 @@ fn reading(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     }
 }
 
-/// The parameters of a preset, with the paper's numbers.
+/// Returns the parameters of a preset, with the paper's numbers.
 fn defaults(preset: Preset) -> Params {
     Params::new(preset, crate::geometry::Unit::Centimeter)
 }

@@ -1,4 +1,4 @@
-//! Where the peduncle is, which gives the reference axis.
+//! The peduncle, which gives the reference axis.
 
 use std::path::PathBuf;
 
@@ -8,13 +8,14 @@ use crate::app::peduncle::PedunclePath;
 use crate::app::{Command, PeduncleCommand, State, Tool};
 use crate::fruit::PeduncleChoice;
 use crate::peduncle::{HueRange, Peduncle, PeduncleSource};
-use crate::ui::peduncle::{beside, hue_bar, references};
+use crate::ui::peduncle::{beside, hue_bar, picking_tools, references};
 use crate::ui::widgets::controls::{
-    Choice, Edit, Number, Slid, caution, choose, hint, row, section, text_field,
+    Choice, Edit, Number, SliderRow, button, caution, checkbox, choice_row, hint, section, text_field,
 };
 
+/// A method of finding the peduncle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Way {
+enum Method {
     Auto,
     None,
     Label,
@@ -24,13 +25,13 @@ enum Way {
     Picked,
 }
 
-/// Greens: where peduncles are found beside red and yellow fruits.
+/// The greens, which tell peduncles from red and yellow fruits.
 const GREENS: HueRange = HueRange {
     from_deg: 80.0,
     to_deg: 160.0,
 };
 
-impl Way {
+impl Method {
     fn of(choice: &PeduncleChoice) -> Self {
         match choice {
             PeduncleChoice::Auto => Self::Auto,
@@ -44,45 +45,45 @@ impl Way {
     }
 }
 
-pub(in crate::ui) fn show(ui: &mut Ui, state: &State, edit: &mut Edit<'_>, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, state: &State, edit: &mut Edit<'_>, commands: &mut Vec<Command>) {
     let mut is_tried = false;
     let differs = edit.request.peduncle != PeduncleChoice::Auto || edit.request.without_peduncle;
     // A file or a folder is chosen before its name is known.
     let awaits_path = ui.make_persistent_id("peduncle awaits path");
     let is_reset = section(ui, "Peduncle", false, differs, |ui| {
-        // It waits for one only as long as nothing else was chosen, here or by an undo.
+        // It waits for one only as long as nothing else is chosen, here or by an undo.
         let now = edit.request.peduncle.to_string();
-        let waits = ui.data(|data| data.get_temp::<(Way, String)>(awaits_path));
-        let way = match waits {
-            Some((way, then)) if then == now => way,
-            _ => Way::of(&edit.request.peduncle),
+        let waits = ui.data(|data| data.get_temp::<(Method, String)>(awaits_path));
+        let method = match waits {
+            Some((method, then)) if then == now => method,
+            _ => Method::of(&edit.request.peduncle),
         };
-        let chosen = ways(ui, state, way);
+        let chosen = methods(ui, state, method);
         if let Some(chosen) = chosen {
             ui.data_mut(|data| match chosen {
-                Way::File | Way::Removed => {
+                Method::File | Method::Removed => {
                     data.insert_temp(awaits_path, (chosen, now.clone()));
                 }
-                _ => data.remove::<(Way, String)>(awaits_path),
+                _ => data.remove::<(Method, String)>(awaits_path),
             });
             match chosen {
-                Way::Auto => edit.request.peduncle = PeduncleChoice::Auto,
-                Way::None => edit.request.peduncle = PeduncleChoice::None,
-                Way::Label => edit.request.peduncle = PeduncleChoice::Label,
-                Way::Hue => edit.request.peduncle = PeduncleChoice::Hue(GREENS),
-                Way::File | Way::Removed => {}
-                // It is picked with the first stroke.
-                Way::Picked => commands.push(Command::Use(Tool::Lasso)),
+                Method::Auto => edit.request.peduncle = PeduncleChoice::Auto,
+                Method::None => edit.request.peduncle = PeduncleChoice::None,
+                Method::Label => edit.request.peduncle = PeduncleChoice::Label,
+                Method::Hue => edit.request.peduncle = PeduncleChoice::Hue(GREENS),
+                Method::File | Method::Removed => {}
+                // The choice comes with the first stroke.
+                Method::Picked => commands.push(Command::Use(Tool::Lasso)),
             }
         }
-        match chosen.unwrap_or(way) {
-            way @ (Way::File | Way::Removed) => {
-                if path(ui, edit, way, commands) {
-                    ui.data_mut(|data| data.remove::<(Way, String)>(awaits_path));
+        match chosen.unwrap_or(method) {
+            method @ (Method::File | Method::Removed) => {
+                if path(ui, edit, method, commands) {
+                    ui.data_mut(|data| data.remove::<(Method, String)>(awaits_path));
                 }
             }
-            Way::Hue => is_tried |= hue(ui, state, edit),
-            Way::Auto | Way::None | Way::Label | Way::Picked => {}
+            Method::Hue => is_tried |= hue(ui, state, edit),
+            Method::Auto | Method::None | Method::Label | Method::Picked => {}
         }
         let found = state.walked.as_ref().map(|walked| &walked.fruit);
         if let Some(fruit) = found.filter(|_| !state.is_stale) {
@@ -100,8 +101,8 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, edit: &mut Edit<'_>, comma
         ui.add_space(2.0);
         let tip = "Leave the peduncle's points out of the analysis: the paper's second variant of its data \
                    (§ 2.1). Otherwise the cloud is analyzed as it stands.";
-        ui.checkbox(&mut edit.request.without_peduncle, "Analyze without the peduncle")
-            .on_hover_text(tip);
+        let without = &mut edit.request.without_peduncle;
+        checkbox(ui, without, "Analyze without the peduncle", tip);
         beside(ui, state, commands);
     });
     if is_tried != state.peduncle.is_previewed {
@@ -111,11 +112,11 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, edit: &mut Edit<'_>, comma
     if is_reset {
         edit.request.peduncle = PeduncleChoice::Auto;
         edit.request.without_peduncle = false;
-        ui.data_mut(|data| data.remove::<(Way, String)>(awaits_path));
+        ui.data_mut(|data| data.remove::<(Method, String)>(awaits_path));
     }
 }
 
-fn ways(ui: &mut Ui, state: &State, way: Way) -> Option<Way> {
+fn methods(ui: &mut Ui, state: &State, method: Method) -> Option<Method> {
     let cloud = state.walked.as_ref().map(|walked| walked.fruit.cloud());
     let no_labels = cloud
         .filter(|cloud| cloud.labels().is_none())
@@ -125,77 +126,64 @@ fn ways(ui: &mut Ui, state: &State, way: Way) -> Option<Way> {
         .map(|_| "This file has no colors to tell the peduncle by.");
     let tip = "Where the peduncle's points are. The reference axis runs from the fruit center through their \
                mean (§ 3.2).";
-    row(ui, "Found by", tip, |ui| {
-        choose(
-            ui,
-            "Where the peduncle is",
-            &way,
-            tip,
-            vec![
-                Choice::new(
-                    Way::Auto,
-                    "auto",
-                    "Labels in the file, else NAME_peduncle.ply beside it, else none.",
-                ),
-                Choice::new(Way::None, "none", "There is no reference axis by a peduncle."),
-                Choice::new(Way::Label, "labels", "The points that the file labels 1.").unless(no_labels),
-                Choice::new(
-                    Way::File,
-                    "a file",
-                    "A PLY file with the peduncle's points alone.",
-                ),
-                Choice::new(
-                    Way::Removed,
-                    "another folder",
-                    "The points that are missing in the cloud of the same name in a folder of clouds without their \
-                     peduncles, which is how the paper's data come.",
-                ),
-                Choice::new(
-                    Way::Hue,
-                    "color (hue)",
-                    "The points whose color has a hue in a range.",
-                )
-                .unless(no_colors),
-                Choice::new(
-                    Way::Picked,
-                    "picked in the view",
-                    "The points that you go around or paint over in the view.",
-                ),
-            ],
+    let choices = vec![
+        Choice::new(
+            Method::Auto,
+            "auto",
+            "Labels in the file, else NAME_peduncle.ply beside it, else none.",
+        ),
+        Choice::new(Method::None, "none", "There is no reference axis by a peduncle."),
+        Choice::new(
+            Method::Label,
+            "labels",
+            "The points with the label 1 in the file.",
         )
-    })
+        .unless(no_labels),
+        Choice::new(
+            Method::File,
+            "a file",
+            "A PLY file of the peduncle's points alone.",
+        ),
+        Choice::new(
+            Method::Removed,
+            "another folder",
+            "The points that are missing in the cloud of the same name in a folder of clouds without their \
+             peduncles. The paper's data come in this form.",
+        ),
+        Choice::new(
+            Method::Hue,
+            "color (hue)",
+            "The points whose color has a hue within a range.",
+        )
+        .unless(no_colors),
+        Choice::new(
+            Method::Picked,
+            "picked in the view",
+            "The points that you circle or paint over in the view.",
+        ),
+    ];
+    choice_row(ui, "Found by", "Where the peduncle is", &method, tip, choices)
 }
 
-/// The tools that pick points, and whether what was picked lies in a file.
+/// Shows the tools that pick points, and whether the picked points are saved in a file.
 fn pick(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
         ui.label("Pick in the view:");
-        for (text, tool, tip) in [
-            ("Lasso", Tool::Lasso, "Go around the peduncle's points (K)"),
-            ("Brush", Tool::Brush, "Paint over the peduncle's points (B)"),
-        ] {
-            let is_on = state.tool == tool;
-            let button = egui::Button::selectable(is_on, text).frame_when_inactive(true);
-            let button = ui.add_enabled(state.current_walked().is_some(), button);
-            if button
-                .on_hover_text(tip)
-                .accessible_name(format!("Pick with the {}", text.to_lowercase()))
-                .clicked()
-            {
+        ui.add_enabled_ui(state.current_walked().is_some(), |ui| {
+            let name = |text: &str| format!("Pick with the {}", text.to_lowercase());
+            if let Some(tool) = picking_tools(ui, state, name) {
+                let is_on = state.tool == tool;
                 commands.push(Command::Use(if is_on { Tool::Navigate } else { tool }));
             }
-        }
+        });
     });
     if state.has_unsaved_peduncle() {
         caution(
             ui,
-            "Picked, and not saved in a file yet: the command line does not know it.",
+            "Picked, and not saved in a file yet: the command line cannot use it.",
         );
-        if ui
-            .button("Save beside the cloud")
-            .on_hover_text("As NAME_peduncle.ply, where the command line finds it (Ctrl + Shift + S)")
-            .clicked()
-        {
+        let tip = "As NAME_peduncle.ply, where the command line finds it (Ctrl + Shift + S)";
+        if button(ui, "Save beside the cloud", tip) {
             commands.push(Command::Peduncle(PeduncleCommand::Save));
         }
     } else if let Some(path) = state.saved_peduncle() {
@@ -226,9 +214,9 @@ fn found_in_words(found: Option<&Peduncle>, choice: &PeduncleChoice) -> String {
     format!("Found {by}: {points}")
 }
 
-/// The peduncle's file, or the folder of clouds without it; says whether one was named.
-fn path(ui: &mut Ui, edit: &mut Edit<'_>, way: Way, commands: &mut Vec<Command>) -> bool {
-    let is_file = way == Way::File;
+/// Shows the field for the peduncle's file, or for the folder of clouds without it; returns whether one was named.
+fn path(ui: &mut Ui, edit: &mut Edit<'_>, method: Method, commands: &mut Vec<Command>) -> bool {
+    let is_file = method == Method::File;
     let (tip, empty, name, wanted) = if is_file {
         (
             "A PLY file with the peduncle's points, in the cloud's unit and frame. Enter ends typing.",
@@ -251,14 +239,14 @@ fn path(ui: &mut Ui, edit: &mut Edit<'_>, way: Way, commands: &mut Vec<Command>)
         _ => String::new(),
     };
     let memory = ui.make_persistent_id(("peduncle path typed", is_file));
-    // What is being typed belongs to what was there when typing began.
+    // A text being typed belongs to the path that was there when typing began.
     let (of, mut typed) = ui
         .data(|data| data.get_temp::<(String, String)>(memory))
         .filter(|(of, _)| *of == now)
         .unwrap_or_else(|| (now.clone(), now.clone()));
     let response = ui
         .horizontal(|ui| {
-            if ui.button("Choose …").on_hover_text(tip).clicked() {
+            if button(ui, "Choose …", tip) {
                 let ask = PeduncleCommand::Ask(wanted);
                 commands.push(Command::Peduncle(ask));
             }
@@ -279,15 +267,15 @@ fn path(ui: &mut Ui, edit: &mut Edit<'_>, way: Way, commands: &mut Vec<Command>)
     is_named
 }
 
-/// The range of hues; says whether somebody is at it, and wants to see what it takes.
+/// Shows the range of hues; returns whether the cursor or the focus is there, so that its points are to be shown.
 fn hue(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) -> bool {
     let PeduncleChoice::Hue(mut range) = edit.request.peduncle else {
         return false;
     };
     let mut is_tried = false;
     let bar = hue_bar(ui, &mut range, state.peduncle.hues.as_deref()).on_hover_text(
-        "How many points have which hue (on a scale of roots). Drag either end of the range; the points in it show in \
-         the view.",
+        "The number of points of each hue (on a square-root scale). Drag either end of the range; its points show in the \
+         view.",
     );
     is_tried |= bar.hovered() || bar.dragged();
     edit.note(&bar, "hue");
@@ -303,7 +291,7 @@ fn hue(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) -> bool {
             "Greatest hue of the peduncle in degrees",
         ),
     ] {
-        let (response, _) = Slid {
+        let (response, _) = SliderRow {
             label,
             tip: "A hue in degrees: red 0, yellow 60, green 120, blue 240. A range may run through red, as 350 \
                   to 20 does.",
@@ -318,7 +306,7 @@ fn hue(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) -> bool {
             usual: 0.0..=360.0,
             step: 1.0,
             logarithmic: false,
-            differs: false,
+            can_reset: false,
         }
         .show(ui, value);
         is_tried |= response.hovered() || response.dragged() || response.has_focus();

@@ -4,14 +4,14 @@ use egui::Ui;
 
 use super::defaults;
 use crate::method::{Aggregation, CandidateGrid, Preset, TAU_CM_PER_RAD};
-use crate::ui::widgets::controls::{Choice, Edit, Number, Slid, choose, hint, row, section};
+use crate::ui::widgets::controls::{Choice, Edit, Number, SliderRow, choice_row, hint, section};
 
-/// The two numbers that are changed most.
-pub(in crate::ui) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
+/// Shows the two numbers that are changed most: the steps of the grid, and τ.
+pub(super) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
     let tip = "Steps of the candidate grid along each angle (Eq. 4–10): u × u planes. The paper uses 6. A \
                finer grid comes nearer to the true plane, and takes longer.";
     let mut u = edit.request.params.u as f64;
-    let (response, is_reset) = Slid {
+    let (response, is_reset) = SliderRow {
         label: "Grid steps u",
         tip,
         number: Number {
@@ -26,7 +26,7 @@ pub(in crate::ui) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
         usual: CandidateGrid::MIN_U as f64..=60.0,
         step: 1.0,
         logarithmic: true,
-        differs: edit.request.params.u != 6,
+        can_reset: edit.request.params.u != 6,
     }
     .show(ui, &mut u);
     edit.note(&response, "u");
@@ -44,9 +44,9 @@ pub(in crate::ui) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
     ui.add_space(2.0);
 
     let tip = "The weight of an angle against a distance in S = d + τξ (Eq. 15), in centimeters per radian. \
-               The paper found 3/π = 0.955 by trying. At 0 only distances count. Takes effect at once.";
+               The paper found 3/π = 0.955 by trial. At 0 only distances count. Takes effect at once.";
     let tau = &mut edit.request.params.tau_cm_per_rad;
-    let (response, is_reset) = Slid {
+    let (response, is_reset) = SliderRow {
         label: "Angle weight τ",
         tip,
         number: Number {
@@ -60,7 +60,7 @@ pub(in crate::ui) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
         usual: 0.0..=4.0,
         step: 0.0,
         logarithmic: false,
-        differs: *tau != TAU_CM_PER_RAD,
+        can_reset: *tau != TAU_CM_PER_RAD,
     }
     .show(ui, tau);
     if is_reset {
@@ -69,37 +69,30 @@ pub(in crate::ui) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
     edit.note(&response, "tau");
 }
 
-/// How a plane's score is made of its points'.
-pub(in crate::ui) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
+/// Shows how a plane's score is computed from those of its points.
+pub(super) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
     let params = &edit.request.params;
-    // Of the reading that the center follows, so that a reset leads back to a preset.
+    // The default in the reading that the center follows, so that a reset leads back to a preset.
     let default = defaults(params.center.preset().unwrap_or(Preset::AsIntended));
     let differs = params.aggregation != default.aggregation
         || params.min_partner_fraction != default.min_partner_fraction;
     let is_reset = section(ui, "Score of a plane", true, differs, |ui| {
-        let tip = "How a plane's score is made of its points' scores S (§ 2.5). Takes effect at once.";
+        let tip = "How a plane's score is computed from its points' scores S (§ 2.5). Takes effect at once.";
         let params = &mut edit.request.params;
-        let chosen = row(ui, "Add up as", tip, |ui| {
-            choose(
-                ui,
-                "Aggregation",
-                &params.aggregation,
-                tip,
-                vec![
-                    Choice::new(
-                        Aggregation::Mean,
-                        "mean",
-                        "The mean over the points with a partner.",
-                    ),
-                    Choice::new(
-                        Aggregation::Sum,
-                        "sum",
-                        "The sum over the points with a partner, as printed. A plane that leaves hardly a \
-                         point with a partner wins.",
-                    ),
-                ],
-            )
-        });
+        let choices = vec![
+            Choice::new(
+                Aggregation::Mean,
+                "mean",
+                "The mean over the points with a partner.",
+            ),
+            Choice::new(
+                Aggregation::Sum,
+                "sum",
+                "The sum over the points with a partner, as printed. A plane that leaves hardly a point with a \
+                 partner wins.",
+            ),
+        ];
+        let chosen = choice_row(ui, "Add up as", "Aggregation", &params.aggregation, tip, choices);
         if let Some(aggregation) = chosen {
             // The least share follows, unless it was set by hand.
             if params.min_partner_fraction == params.aggregation.default_min_partner_fraction() {
@@ -110,10 +103,10 @@ pub(in crate::ui) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
         let mut percent = 100.0 * params.min_partner_fraction;
         let before = percent;
         let usual = 100.0 * params.aggregation.default_min_partner_fraction();
-        let (response, _) = Slid {
+        let (response, _) = SliderRow {
             label: "Least partners",
-            tip: "The least share of points with a visible partner (Eq. 14) that lets a plane win, in percent. \
-                  Ours: the paper has none, which is 0 %. Takes effect at once.",
+            tip: "The least share of points with a visible partner (Eq. 14) with which a plane can win, in percent. \
+                  Not in the paper, which amounts to 0 %. Takes effect at once.",
             number: Number {
                 name: "Least share of partners in percent",
                 suffix: " %",
@@ -125,11 +118,11 @@ pub(in crate::ui) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
             usual: 0.0..=100.0,
             step: 1.0,
             logarithmic: false,
-            differs: false,
+            can_reset: false,
         }
         .show(ui, &mut percent);
         if percent != before {
-            // A whole default stays the very number, so that the preset is known again.
+            // The default stays the exact number, by which the preset is recognized.
             params.min_partner_fraction = if (percent - usual).abs() < 1e-9 {
                 params.aggregation.default_min_partner_fraction()
             } else {

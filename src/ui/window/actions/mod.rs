@@ -9,7 +9,7 @@ use crate::ui::action::{Act, Action, Group};
 use crate::ui::{many, peduncle, true_axes};
 use table::{edit_actions, file_actions, plane_actions, style_actions, view_actions, window_actions};
 
-/// Everything that can be done as things are now.
+/// Returns all actions in the current state.
 pub fn actions(state: &State) -> Vec<Action> {
     let mut all = file_actions(state);
     all.extend(edit_actions(state));
@@ -31,7 +31,7 @@ pub fn actions(state: &State) -> Vec<Action> {
     all
 }
 
-/// In edit mode a key that turns or changes the axis means nothing else.
+/// Takes away keys that turn or change the axis from all other actions, in edit mode.
 fn give_way(all: &mut [Action]) {
     let of_axis = |action: &&Action| action.group == Group::TrueAxis;
     let taken: Vec<KeyboardShortcut> = all.iter().filter(of_axis).flat_map(|a| a.keys.clone()).collect();

@@ -1,4 +1,4 @@
-//! The actions of the view and its planes, and their keys.
+//! The actions on files, parameters, planes, view and window, with their keys.
 
 use egui::Key;
 
@@ -11,7 +11,7 @@ use crate::ui::pane::Pane;
 use crate::ui::true_axes;
 use crate::view::{Coloring, Overlay, Theme, ViewPreset};
 
-pub(in crate::ui) fn file_actions(state: &State) -> Vec<Action> {
+pub(super) fn file_actions(state: &State) -> Vec<Action> {
     use Group::File;
     let current = state.current;
     let has_look = state.look.is_some();
@@ -54,19 +54,19 @@ pub(in crate::ui) fn file_actions(state: &State) -> Vec<Action> {
     actions
 }
 
-pub(in crate::ui) fn edit_actions(state: &State) -> Vec<Action> {
+pub(super) fn edit_actions(state: &State) -> Vec<Action> {
     use Group::Edit;
     let preset = state.settings.request.params.preset();
     let is_moving = state.tool == Tool::MoveCenter;
     let is_drawing = state.peduncle.strokes.back().is_some_and(|s| !s.is_ended);
     let escape = if state.peduncle.question.is_some() {
         let dismiss = Command::Peduncle(PeduncleCommand::Dismiss);
-        Action::app(Edit, "Drop the question", dismiss)
+        Action::app(Edit, "Dismiss the question", dismiss)
     } else if is_drawing {
         let drop = Command::Peduncle(PeduncleCommand::DropStroke);
-        Action::app(Edit, "Drop this stroke", drop)
+        Action::app(Edit, "Discard this stroke", drop)
     } else if state.progress.is_some() {
-        Action::app(Edit, "Call the analysis off", Command::Cancel)
+        Action::app(Edit, "Cancel the analysis", Command::Cancel)
     } else if is_moving {
         Action::app(Edit, "Stop moving the center", Command::Use(Tool::Navigate))
     } else if state.is_picking() {
@@ -119,14 +119,14 @@ pub(in crate::ui) fn edit_actions(state: &State) -> Vec<Action> {
         .key(NONE, Key::C)
         .on(is_moving)
         .when(state.analysis().is_some()),
-        Action::app(Edit, "Analyze after all", Command::Resume)
+        Action::app(Edit, "Analyze now", Command::Resume)
             .key(NONE, Key::F5)
             .when(state.was_cancelled),
     ]);
     actions
 }
 
-pub(in crate::ui) fn plane_actions(state: &State) -> Vec<Action> {
+pub(super) fn plane_actions(state: &State) -> Vec<Action> {
     use Group::Plane;
     let u = state.analysis().map(|a| a.planes.grid.u().cast_signed());
     let has = u.is_some();
@@ -157,7 +157,7 @@ pub(in crate::ui) fn plane_actions(state: &State) -> Vec<Action> {
     ]
 }
 
-pub(in crate::ui) fn view_actions(state: &State) -> Vec<Action> {
+pub(super) fn view_actions(state: &State) -> Vec<Action> {
     use Group::View;
     let has = state.look.is_some();
     let view = |title: &str, preset, key| {
@@ -191,7 +191,7 @@ pub(in crate::ui) fn view_actions(state: &State) -> Vec<Action> {
     ]
 }
 
-pub(in crate::ui) fn style_actions(state: &State) -> Vec<Action> {
+pub(super) fn style_actions(state: &State) -> Vec<Action> {
     let (style, is_blind) = (&state.style, state.true_axes.is_blind);
     let mut actions = Vec::new();
     let number = [
@@ -250,14 +250,14 @@ pub(in crate::ui) fn style_actions(state: &State) -> Vec<Action> {
         ("Smaller points", Key::OpenBracket, 1.0 / 1.25),
     ] {
         let action = Action::app(Group::Overlay, title, sized(size * factor)).repeating();
-        // With the brush in hand these keys are its own.
+        // While the brush is in hand, these keys size it.
         let is_brush = state.tool == Tool::Brush;
         actions.push(if is_brush { action } else { action.key(NONE, key) });
     }
     actions
 }
 
-/// A coloring's name in menus.
+/// Returns a coloring's name in menus.
 fn coloring_title(coloring: Coloring) -> &'static str {
     match coloring {
         Coloring::Rgb => "Colors of the file",
@@ -271,7 +271,7 @@ fn coloring_title(coloring: Coloring) -> &'static str {
     }
 }
 
-/// An overlay's name in menus, and its key.
+/// Returns an overlay's name in menus, and its key.
 fn overlay_title(overlay: Overlay) -> (&'static str, Option<Key>) {
     match overlay {
         Overlay::Plane => ("Candidate plane", Some(Key::P)),
@@ -291,7 +291,7 @@ fn overlay_title(overlay: Overlay) -> (&'static str, Option<Key>) {
     }
 }
 
-pub(in crate::ui) fn window_actions(state: &State) -> Vec<Action> {
+pub(super) fn window_actions(state: &State) -> Vec<Action> {
     use Group::Window;
     let mut other = state.style.clone();
     other.theme = if state.is_dark() {
@@ -314,14 +314,14 @@ pub(in crate::ui) fn window_actions(state: &State) -> Vec<Action> {
             .key(CTRL, Key::Plus)
             .key(CTRL, Key::Equals),
         Action::app(Window, "Smaller interface", Command::Scale(scale - 0.1)).key(CTRL, Key::Minus),
-        Action::app(Window, "Interface of usual size", Command::Scale(1.0)).key(CTRL, Key::Num0),
-        Action::window("Arrange the panels as at first", Window, WindowAct::ResetLayout),
+        Action::app(Window, "Interface at normal size", Command::Scale(1.0)).key(CTRL, Key::Num0),
+        Action::window("Reset the layout of the panels", Window, WindowAct::ResetLayout),
         Action::window("About Axiscope", Window, WindowAct::About),
     ];
     actions.extend(
         Pane::ALL
             .into_iter()
-            // Those beside the view have keys of their own.
+            // The panes with a key are listed with it, among the actions on all clouds.
             .filter(|pane| !pane.has_key())
             .map(|pane| Action::window(format!("Panel: {}", pane.title()), Window, WindowAct::Show(pane))),
     );

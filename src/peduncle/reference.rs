@@ -6,7 +6,7 @@ use crate::method::{AxisEstimate, AxisSource};
 use crate::neighbors::Neighbors;
 use glam::DVec3;
 
-/// The way in which a cloud's peduncle was told from its body.
+/// The way in which a cloud's peduncle was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PeduncleSource {
     /// By the file's labels: [`Cloud::PEDUNCLE`].
@@ -36,7 +36,7 @@ pub enum PeduncleError {
     /// No point has such a color.
     #[error("none of its points has a hue from {}° to {}°", range.from_deg, range.to_deg)]
     NoneOfHue {
-        /// The range that was asked for.
+        /// The requested range.
         range: HueRange,
     },
     /// The companion has no points.

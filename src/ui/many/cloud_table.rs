@@ -7,7 +7,7 @@ use egui::{
     TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::{FolderAnswer, bar, filters, tagging};
+use super::{PanelRequest, bar, filters, tagging};
 use crate::app::many::{Column, ManyCommand, Sort, TableRow};
 use crate::app::{Command, State};
 use crate::ui::widgets::controls::warning_color;
@@ -76,7 +76,7 @@ struct Seen {
 }
 
 /// Draws the panel.
-pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
+pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<PanelRequest> {
     let asked = bar::show(ui, state, commands);
     if asked.is_some() {
         return asked;
@@ -162,7 +162,7 @@ fn header(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Com
     underline(ui, rect);
 }
 
-fn body(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
+fn body(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Command>) -> Option<PanelRequest> {
     let folder = &state.many;
     let row_height = ui.text_style_height(&TextStyle::Body) + 6.0;
     let seen_id = id.with("seen");
@@ -184,7 +184,7 @@ fn body(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Comma
             ui.memory_mut(|memory| memory.request_focus(keyboard.id));
         }
         if response.double_clicked() {
-            answer = Some(FolderAnswer::ShowView);
+            answer = Some(PanelRequest::ShowView);
         }
         if response.hovered() {
             explain(response, &folder.rows[place]);
@@ -211,7 +211,7 @@ fn keyboard(ui: &mut Ui, id: Id, seen: Seen, frame: u64) -> Response {
 }
 
 /// Arrow keys go from row to row while the table has the keyboard, Enter looks at the cloud.
-fn by_keys(ui: &Ui, keyboard: &Response, commands: &mut Vec<Command>) -> Option<FolderAnswer> {
+fn by_keys(ui: &Ui, keyboard: &Response, commands: &mut Vec<Command>) -> Option<PanelRequest> {
     if !keyboard.has_focus() {
         return None;
     }
@@ -228,7 +228,7 @@ fn by_keys(ui: &Ui, keyboard: &Response, commands: &mut Vec<Command>) -> Option<
     if by != 0 {
         commands.push(Command::Go(by));
     }
-    (pressed(Key::Enter) > 0).then_some(FolderAnswer::ShowView)
+    (pressed(Key::Enter) > 0).then_some(PanelRequest::ShowView)
 }
 
 fn cloud_row(ui: &mut Ui, id: Id, size: Vec2, state: &State, place: usize) -> Response {

@@ -1,4 +1,4 @@
-//! The places around a point: its k nearest neighbors.
+//! The k nearest places of a point.
 
 use std::num::NonZeroUsize;
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 use pulp::Scalar;
 
 use super::leaf::LEAF;
-use super::walk::Walk;
+use super::traversal::Traversal;
 use super::{Neighbor, Neighbors};
 
 impl Neighbors {
@@ -14,23 +14,21 @@ impl Neighbors {
     /// there are fewer), nearest first, of those as near the one of the lowest index first. The last
     /// place may hold more points than are still wanted.
     pub fn nearest_places(&self, query: DVec3, count: NonZeroUsize) -> Vec<Neighbor> {
-        let start = self.tree.descend(self.tree.in_frame(query).to_array());
+        let query = query * self.scale;
         let mut found = Vec::new();
-        self.gather(query, count, start, &mut found);
+        self.gather(query, count, self.tree.descend(&query.to_array()), &mut found);
         self.put_in_order(count, &mut found);
-        found
-            .iter()
-            .map(|&(d, position)| self.neighbor(position as usize, d))
-            .collect()
+        let neighbor = |&(squared, position): &(f64, u32)| {
+            self.neighbor(position as usize, squared / (self.scale * self.scale))
+        };
+        found.iter().map(neighbor).collect()
     }
 
-    /// As [`Neighbors::nearest_places`], around the place at a position of the tree's order: squared
-    /// distances and positions, in no order where no place holds more than one point.
+    /// The positions of the places that [`Neighbors::nearest_places`] finds around the place at a position of
+    /// the tree's order, in no order where no place holds more than one point.
     #[inline(always)]
     pub(crate) fn around(&self, position: usize, count: NonZeroUsize, found: &mut Vec<(f64, u32)>) {
-        let (leaf, place) = self.tree.leaf_at(position);
-        let query = self.tree.place(leaf, place);
-        self.gather(query, count, leaf, found);
+        self.gather(self.tree.point(position), count, position / LEAF, found);
         if self.first.len() < self.order.len() {
             self.put_in_order(count, found);
         }
@@ -41,38 +39,22 @@ impl Neighbors {
         &self.order[self.start[position] as usize..self.start[position + 1] as usize]
     }
 
-    /// The distances and positions in the tree's order of `count` nearest places, into `found`.
-    /// `start` is a leaf nearby.
+    /// Finds the squared distances and positions of the `count` nearest places. `start` is a leaf nearby.
     #[inline(always)]
     fn gather(&self, query: DVec3, count: NonZeroUsize, start: usize, found: &mut Vec<(f64, u32)>) {
-        let count = count.get().min(self.tree.len());
-        // Some places nearby, whose count-th bounds the search.
+        let (tree, count) = (&self.tree, count.get().min(self.tree.len));
+        // The count-th nearest in some leaves nearby bounds the search. One leaf more than it takes, since the
+        // last one may be short.
         found.clear();
-        // One leaf more than they fill, since leaves may be short.
-        let window = count.div_ceil(LEAF) + 1;
-        let leaves = self.tree.leaves();
-        let mut from = start
-            .saturating_sub(window / 2)
-            .min(leaves.saturating_sub(window));
-        let mut to = (from + window).min(leaves);
-        for leaf in from..to {
+        let (window, leaves) = (count.div_ceil(LEAF) + 1, tree.leaves.len());
+        let from = (start.saturating_sub(window / 2)).min(leaves.saturating_sub(window));
+        for leaf in from..(from + window).min(leaves) {
             self.collect(leaf, query, f64::INFINITY, found);
-        }
-        while found.len() < count {
-            if to < leaves {
-                self.collect(to, query, f64::INFINITY, found);
-                to += 1;
-            } else {
-                from -= 1;
-                self.collect(from, query, f64::INFINITY, found);
-            }
         }
         let (_, &mut (limit, _), _) = found.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
         found.clear();
-        let (from, reach) = self.tree.single(self.tree.in_frame(query).to_array(), limit);
-        let mut walk = Walk::new();
-        walk.begin(&self.tree, from);
-        while let Some((leaf, _)) = walk.next::<Scalar, false>(&self.tree, reach) {
+        let mut traversal = Traversal::new(tree, query.to_array(), limit);
+        while let Some((leaf, _)) = traversal.next::<Scalar>(tree, 0.0) {
             self.collect(leaf, query, limit, found);
         }
         if found.len() > count {
@@ -81,7 +63,7 @@ impl Neighbors {
         }
     }
 
-    /// Nearest first; those at the end go that are not needed for so many points.
+    /// Puts the nearest first, and drops those at the end that are not needed for so many points.
     fn put_in_order(&self, count: NonZeroUsize, found: &mut Vec<(f64, u32)>) {
         found.sort_unstable_by(|a, b| self.by_distance(a, b));
         let mut wanted = count.get();
@@ -100,10 +82,10 @@ impl Neighbors {
 
     #[inline(always)]
     fn collect(&self, leaf: usize, query: DVec3, limit: f64, found: &mut Vec<(f64, u32)>) {
-        let distances = self.tree.leaf_distances_squared(leaf, query);
-        for (position, &d) in self.tree.positions(leaf).zip(&distances) {
-            if d <= limit {
-                found.push((d, position as u32));
+        let distances = self.tree.distances_squared(leaf, query);
+        for (position, &squared) in self.tree.positions(leaf).zip(&distances) {
+            if squared <= limit {
+                found.push((squared, position as u32));
             }
         }
     }

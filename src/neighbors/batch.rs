@@ -1,0 +1,151 @@
+//! The search for the nearest points of many queries, a block at a time.
+
+use glam::DVec3;
+use pulp::Simd;
+
+use super::Neighbors;
+use super::block::{Block, Column};
+use super::lanes::BLOCK;
+use super::leaf::LEAF;
+use super::traversal::Traversal;
+
+/// The nearest place of each query of a block.
+#[derive(Debug, Default)]
+pub(crate) struct BlockResult {
+    /// The places' positions in the tree's order.
+    pub(crate) position: [u32; BLOCK],
+    /// Their squared distances, in the square of the points' unit.
+    pub(crate) distance_squared: Column,
+}
+
+/// While leaves are looked into first, the reach is drawn in after so many of them.
+const ROUND: usize = 8;
+/// Where fewer leaves wait, drawing the reach in is not worth its time.
+const MANY: usize = 24;
+
+/// A search for the nearest places of blocks of queries, each of which starts where the one before it ended.
+///
+/// To be used where code is built for the vector instructions `S`: all that it calls in its loops is
+/// inlined. Only the choice of leaves that are looked into depends on how they round, never an answer.
+pub(crate) struct BatchSearch<'a, S> {
+    simd: S,
+    index: &'a Neighbors,
+    /// The position of the nearest place of the last query.
+    last: usize,
+    block: Block,
+    /// Leaves that may be out of reach by the time all others have been looked into, and their excesses over
+    /// the reference.
+    waiting: Vec<(f32, usize)>,
+}
+
+impl<'a, S: Simd> BatchSearch<'a, S> {
+    #[inline(always)]
+    pub(crate) fn new(index: &'a Neighbors, simd: S) -> Self {
+        Self {
+            simd,
+            index,
+            last: 0,
+            block: Block::default(),
+            waiting: Vec::with_capacity(64),
+        }
+    }
+
+    /// Finds the nearest places of the first `size` of `queries`, coordinate by coordinate; the others must be
+    /// copies of one of these.
+    #[inline(always)]
+    pub(crate) fn find(&mut self, queries: &[Column; 3], size: usize, result: &mut BlockResult) {
+        let (simd, tree, scale) = (self.simd, &self.index.tree, self.index.scale);
+        let unscale = 1.0 / (scale * scale);
+        let mut scaled = [[0.0; BLOCK]; 3];
+        for e in 0..3 {
+            for i in 0..BLOCK {
+                scaled[e][i] = queries[e][i] * scale;
+            }
+        }
+        let is_near = self.block.begin(simd, &scaled);
+        if !is_near {
+            let center = self.block.center;
+            let leaf = tree.descend(&center);
+            self.last = tree.nearest_in(leaf, DVec3::from_array(center)).1;
+        }
+        self.search();
+        let (count, last) = self.block.candidates();
+        for i in 0..size {
+            let query = DVec3::new(scaled[0][i], scaled[1][i], scaled[2][i]);
+            let looked = &self.block.looked[last[i] as usize];
+            let place = if count[i] == 1 {
+                self.block.nearest_in(simd, tree, looked, i)
+            } else {
+                None
+            };
+            let (squared, position) = if let Some(place) = place {
+                let position = tree.positions(looked.leaf).start + place;
+                (tree.distance_squared(position, query), position)
+            } else {
+                self.exact(i, query)
+            };
+            result.position[i] = position as u32;
+            result.distance_squared[i] = squared * unscale;
+        }
+        self.last = result.position[size - 1] as usize;
+    }
+
+    /// Looks into all leaves that may hold the nearest point of any query, first of all into that of the last
+    /// one.
+    #[inline(always)]
+    fn search(&mut self) {
+        let (simd, tree, block) = (self.simd, &self.index.tree, &mut self.block);
+        let start = self.last / LEAF;
+        block.begin_with::<S>(&tree.point(self.last));
+        block.look_into(simd, tree, start);
+        block.update_reach(simd);
+        let mut first_excess = block.first_excess(simd);
+        self.waiting.clear();
+        let mut traversal = Traversal::new(tree, block.center, block.reference);
+        while let Some((leaf, excess)) = traversal.next::<S>(tree, block.reach) {
+            if leaf == start {
+                continue;
+            }
+            if excess > first_excess {
+                self.waiting.push((excess, leaf));
+            } else {
+                block.look_into(simd, tree, leaf);
+                if block.looked.len() % ROUND == 0 {
+                    block.update_reach(simd);
+                    first_excess = block.first_excess(simd);
+                }
+            }
+        }
+        block.update_reach(simd);
+        for (i, &(excess, leaf)) in self.waiting.iter().enumerate() {
+            if !(excess > block.reach) && block.may_find_in::<S>(&tree.leaves[leaf]) {
+                block.look_into(simd, tree, leaf);
+                if self.waiting.len() - i > MANY {
+                    block.update_reach(simd);
+                }
+            }
+        }
+    }
+
+    /// The squared distance and the position of the place nearest to query `i`, among all that single
+    /// precision could not tell apart.
+    #[inline(always)]
+    fn exact(&self, i: usize, query: DVec3) -> (f64, usize) {
+        let (index, tree) = (self.index, &self.index.tree);
+        let mut best = (f64::INFINITY, usize::MAX);
+        for looked in &self.block.looked {
+            if looked.lower.0[i] > self.block.upper.0[i] {
+                continue;
+            }
+            // The points of a leaf are sorted by number: the first of equals is the lowest.
+            let (squared, position) = tree.nearest_in(looked.leaf, query);
+            let is_better = squared < best.0
+                || best.1 == usize::MAX
+                || (squared == best.0 && index.first[position] < index.first[best.1]);
+            if is_better {
+                best = (squared, position);
+            }
+        }
+        best
+    }
+}
