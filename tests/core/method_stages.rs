@@ -181,7 +181,9 @@ proptest! {
         changes in prop::collection::vec(change_of_scores(), 1..6),
     ) {
         let (mut stages, mut params) = (Stages::new(cloud(seed)), params());
-        before.iter().for_each(|change| change.apply(&mut params));
+        for change in &before {
+            change.apply(&mut params);
+        }
         let Ok(first) = stages.analyze(&params, &()) else {
             return Ok(());
         };
