@@ -6,9 +6,8 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::{Annotation, Ends, Role};
-use crate::geometry::angle_between_lines_rad;
+use crate::geometry::{angle_between_lines_rad, symmetric_eigen};
 use crate::method::{AxisEstimate, AxisSource};
-use crate::neighbors::symmetric_eigen;
 
 /// From how many degrees on somebody is far off, unless told otherwise.
 pub const FAR_OFF_DEG: f64 = 10.0;

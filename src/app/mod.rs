@@ -1,46 +1,46 @@
-//! The program behind the window: its state, the commands that change it, and the workers that do
-//! what takes time.
+//! The program behind the window: its state, the commands that change it, and the jobs that take time.
 //!
 //! ```text
-//! command ─▶ App::apply ─▶ settings ─▶ analysis worker ─▶ stages ─▶ look worker ─▶ scene ─▶ what is drawn
+//! command ─▶ App::apply ─▶ a part's apply ─▶ settings and state
+//! frame ───▶ App::update ─▶ each part's update ─▶ jobs of analyses and looks ─▶ scene ─▶ what is drawn
 //! ```
 //!
-//! It knows no window toolkit: whatever draws it calls [`App::update`] once a frame, reads [`State`],
-//! and hands in [`Command`]s.
+//! The parts are rooms of their own: the [`inspector`] of one cloud, its [`peduncle`], its [`true_axes`], and the
+//! [`many`] open clouds together. Each has commands, jobs, and a part of the [`State`]; [`App`] lends them what they
+//! share, in turn.
+//!
+//! It knows no window toolkit: whatever draws it calls [`App::update`] once a frame, reads [`State`], and hands in
+//! [`Command`]s.
 
-mod apply;
-mod files;
+mod clouds;
+mod command;
+mod context;
 pub mod inspector;
 pub mod many;
 pub mod peduncle;
 mod samples;
 mod session;
 mod state;
+mod tool;
 pub mod true_axes;
 pub mod workers;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
-use glam::DVec2;
-
-use crate::evaluate::CloudTags;
-use crate::geometry::Extent;
-use crate::method::{AxisEstimate, PlaneDetail};
-use crate::parallel::Cancelled;
+use crate::method::PlaneDetail;
 use crate::render::{Camera, Viewport};
-use crate::text::sentence;
 use crate::undo::History;
-use crate::view::{ShownPoints, Style};
 
-use inspector::details::Details;
-use inspector::look::Look;
-use inspector::stages::{AnalyzeError, FruitStages};
+use context::{Context, Step};
+use inspector::Inspector;
 use many::{Many, ManyState};
-use workers::{Lane, Pool, Repaint};
+use peduncle::PeduncleTools;
+use true_axes::TrueAxes;
+use workers::{Pool, Repaint};
 
+pub use command::Command;
 pub use inspector::command_line::{command_line, quoted};
 pub use inspector::image::page;
 pub use inspector::navigate::{default_camera, dragged};
@@ -48,88 +48,17 @@ pub use inspector::stages::{AnalyzedFruit, Source};
 pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};
-pub use state::{Command, Entry, Message, PlaneChoice, Settings, State, Tool, TruthChoice};
+pub use state::{Entry, Message, PlaneChoice, Settings, State, TruthChoice};
+pub use tool::Tool;
 pub use true_axes::{TrueAxesCommand, TrueAxesState};
-
-/// A small cloud's results are waited for, so that they are in the frame that asked for them.
-const PATIENCE: Duration = Duration::from_millis(7);
-
-/// Planes that are played through in a second.
-const PLANES_PER_SECOND: f64 = 6.0;
-
-type Arrival = (Source, Arc<crate::fruit::Fruit>, Arc<ShownPoints>);
-
-type AnalysisResult = (FruitStages, Result<AnalyzedFruit, AnalyzeError>);
-
-/// A step that undo takes back: the value that it replaced, or, once it is undone, the value that it made.
-#[derive(Debug, Clone)]
-enum Step {
-    Settings(Box<Settings>),
-    /// The tags and the note of a cloud.
-    Tags {
-        path: PathBuf,
-        tagged: CloudTags,
-    },
-}
-
-/// What was last asked of the analysis worker.
-#[derive(Debug, Clone, PartialEq)]
-struct Asked {
-    source: Source,
-    settings: Box<crate::fruit::Request>,
-    /// Counts reloads.
-    turn: u64,
-}
-
-/// What was last asked of the look worker.
-#[derive(Debug, Clone, PartialEq)]
-struct Seen {
-    /// Of the analysis, or of the points alone.
-    shown_generation: u64,
-    plane: Option<usize>,
-    style: Style,
-    pixels_per_point: f32,
-    brush_cm: Option<std::ops::RangeInclusive<f64>>,
-    reference: Option<AxisEstimate>,
-}
-
-/// What a click or a hovering cursor asks.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct PickQuestion {
-    pixel: DVec2,
-    is_click: bool,
-}
 
 /// The program.
 pub struct App {
-    state: State,
-    undo: History<Step>,
-    stages: FruitStages,
-    details: Details,
-    analysis: Lane<AnalysisResult>,
-    looks: Lane<Result<Look, Cancelled>>,
-    picks: Lane<(PickQuestion, Option<usize>)>,
-    images: Lane<Result<String, String>>,
-    pool: Pool,
-    peduncle: peduncle::Work,
-    asked: Option<Asked>,
-    seen: Option<Seen>,
-    shown_generation: u64,
-    turn: u64,
-    next_message: u64,
-    /// Where playing is between two planes, in planes.
-    play_phase: f64,
-    /// Whether the next cloud is to be framed.
-    needs_framing: bool,
-    /// The extent of the cloud that the camera was set for.
-    framed: Option<Extent>,
-    /// Points that were read, before they are analyzed.
-    arrivals: (Sender<Arrival>, Receiver<Arrival>),
-    repaint: Repaint,
-    /// The last click that was not answered yet.
-    pending_click: Option<PickQuestion>,
+    context: Context,
+    inspector: Inspector,
+    peduncle: PeduncleTools,
+    true_axes: TrueAxes,
     many: Many,
-    annotator: true_axes::Annotator,
 }
 
 impl App {
@@ -137,7 +66,7 @@ impl App {
     /// new to show.
     ///
     /// # Errors
-    /// Where the operating system starts no thread.
+    /// Returns an error if the operating system starts no thread.
     pub fn new(session: Session, repaint: &Repaint) -> std::io::Result<Self> {
         let pool = &Pool::new(repaint)?;
         let mut state = State::new(session.settings, session.style.into());
@@ -146,111 +75,143 @@ impl App {
         state.interface_scale = session.interface_scale.clamp(0.5, 3.0);
         state.many = ManyState::new(session.many);
         Ok(Self {
-            state,
-            undo: History::default(),
-            stages: FruitStages::default(),
-            details: Details::default(),
-            analysis: Lane::new(pool),
-            looks: Lane::new(pool),
-            picks: Lane::new(pool),
-            images: Lane::new(pool),
-            pool: pool.clone(),
-            peduncle: peduncle::Work::new(pool),
-            asked: None,
-            seen: None,
-            shown_generation: 0,
-            turn: 0,
-            next_message: 0,
-            play_phase: 0.0,
-            needs_framing: true,
-            framed: None,
-            arrivals: channel(),
-            repaint: repaint.clone(),
-            pending_click: None,
+            context: Context::new(state, pool),
+            inspector: Inspector::new(pool),
+            peduncle: PeduncleTools::new(pool),
+            true_axes: TrueAxes::new(pool),
             many: Many::new(pool),
-            annotator: true_axes::Annotator::new(pool),
         })
     }
 
     /// Everything that there is to show.
     pub fn state(&self) -> &State {
-        &self.state
+        &self.context.state
     }
 
-    /// Tells the size of the view in logical pixels, and whether the processor draws it.
+    /// Sets the size of the view in logical pixels, and whether the processor draws it.
     pub fn set_view(&mut self, viewport: Viewport, pixels_per_point: f32, is_software: bool) {
-        self.state.viewport = viewport;
-        self.state.pixels_per_point = pixels_per_point;
-        self.state.is_software = is_software;
+        let state = &mut self.context.state;
+        state.viewport = viewport;
+        state.pixels_per_point = pixels_per_point;
+        state.is_software = is_software;
     }
 
-    /// Whether the workers have anything to do, or to hand out.
+    /// Does what a panel asks for, and what follows from it.
+    pub fn apply(&mut self, command: Command) {
+        let cx = &mut self.context;
+        if cx.state.true_axes.is_blind && command.reveals() {
+            cx.say(false, "Blind mode hides what is computed.");
+            return;
+        }
+        match command {
+            Command::Open(paths) => self.open(&paths),
+            Command::OpenSample(sample) => self.open_sample(sample),
+            Command::Show(place) => self.show(place),
+            Command::Go(by) => {
+                if let Some(place) = cx.state.neighbor(by) {
+                    self.show(place);
+                }
+            }
+            Command::Close => self.close(),
+
+            Command::EndGesture => cx.undo.end_gesture(),
+            Command::Undo => self.travel(History::undo),
+            Command::Redo => self.travel(History::redo),
+            Command::Scale(scale) => cx.state.interface_scale = scale.clamp(0.5, 3.0),
+            Command::Dismiss(id) => cx.state.messages.retain(|message| message.id != id),
+            Command::Say { is_error, text } => cx.say(is_error, text),
+
+            Command::Peduncle(command) => self.peduncle.apply(command, cx),
+            Command::Many(command) => self.many.apply(command, cx),
+            Command::TrueAxes(command) => self.true_axes.apply(command, cx),
+            Command::Use(tool) => {
+                // One thing at a time has the left button.
+                if tool != Tool::Navigate && cx.state.true_axes.is_editing {
+                    self.true_axes.apply(TrueAxesCommand::Edit(false), cx);
+                }
+                self.inspector.apply(Command::Use(tool), cx);
+            }
+            command => self.inspector.apply(command, cx),
+        }
+        self.follow_up();
+    }
+
+    /// Takes what the jobs have made, and asks for what is wanted now: to be called once a frame. `elapsed` is the time
+    /// since the last call.
+    pub fn update(&mut self, elapsed: Duration) {
+        let cx = &mut self.context;
+        self.many.update(elapsed, cx);
+        // The background waits while a frame may wait for the current cloud.
+        self.many.set_yielding(true);
+        self.inspector.update(elapsed, cx);
+        self.true_axes.update(cx);
+        self.inspector.update_view(cx);
+        self.peduncle.update(cx);
+        self.many.set_yielding(self.inspector.is_computing());
+        self.true_axes.update_view(&mut cx.state);
+        cx.state.can_undo = cx.undo.undo_steps() > 0;
+        cx.state.can_redo = cx.undo.redo_steps() > 0;
+        self.follow_up();
+    }
+
+    /// Whether a result is still to come or to be taken.
     pub fn is_busy(&self) -> bool {
         self.is_current_busy() || self.many.is_busy()
     }
 
-    /// Whether somebody waits for what they are doing: not for what is done for all clouds in the background.
+    /// Whether somebody waits for a result: the background's work on all clouds does not count.
     pub fn is_current_busy(&self) -> bool {
-        self.analysis.is_busy()
-            || self.looks.is_busy()
-            || self.picks.is_busy()
-            || self.images.is_busy()
-            || self.peduncle.is_busy()
-            || self.annotator.is_busy()
+        self.inspector.is_busy() || self.peduncle.is_busy() || self.true_axes.is_busy()
     }
 
-    /// What is to be done once a frame: takes what the workers have made, and asks for what is wanted
-    /// now. `elapsed` is the time since the last call.
-    pub fn update(&mut self, elapsed: Duration) {
-        self.play(elapsed);
-        self.take_arrivals();
-        self.take_analysis(None);
-        self.update_folder(elapsed);
-        self.stand_aside(true);
-        self.ask_for_analysis();
-        self.update_annotating();
-        self.ask_for_look();
-        self.update_peduncle();
-        self.stand_aside(self.analysis.is_busy() || self.looks.is_busy());
-        self.update_edit_scenes();
-        self.ask_for_pick();
-        if let Some(result) = self.images.take() {
-            let (is_error, text) = match result {
-                Ok(Ok(done)) => (false, done),
-                Ok(Err(problem)) => (true, problem),
-                Err(crash) => (true, sentence(&crash.to_string())),
-            };
-            self.say(is_error, text);
-        }
-        self.state.progress = self.analysis.progress();
-        self.state.can_undo = self.undo.undo_steps() > 0;
-        self.state.can_redo = self.undo.redo_steps() > 0;
+    /// Waits until every edit of an axis is written.
+    pub fn finish(&mut self) {
+        self.true_axes.finish(&mut self.context);
     }
 
-    fn say(&mut self, is_error: bool, text: String) {
-        // Said once, whoever says it again.
-        self.state.messages.retain(|message| message.text != text);
-        self.next_message += 1;
-        self.state.messages.push(Message {
-            id: self.next_message,
-            is_error,
-            text,
-        });
+    /// Keeps rows in a folder, so that they need not be worked out again the next time.
+    pub fn keep_rows_in(&mut self, folder: PathBuf) {
+        self.many.keep_rows_in(folder, &mut self.context);
     }
 
-    /// Keeps `detail` within reach: for tests of the bound.
+    /// The number of files that were read in the background to know their hash: for tests of the cache.
+    #[doc(hidden)]
+    pub fn background_reads(&self) -> usize {
+        self.many.background_reads()
+    }
+
+    /// The details of planes that are kept in memory: for tests of their bound.
     #[doc(hidden)]
     pub fn kept_details(&self) -> Vec<Arc<PlaneDetail>> {
-        self.details.all()
+        self.inspector.kept_details()
     }
 
-    /// The camera, which tests set instead of dragging.
+    /// Sets the camera: tests do so instead of dragging.
     pub fn set_camera(&mut self, camera: Camera) {
-        self.state.camera = camera;
+        self.context.state.camera = camera;
     }
-}
 
-/// An error's text that begins with a file's name, as a sentence: names keep their letters.
-fn sentence_of_file(text: &str) -> String {
-    format!("{text}.")
+    /// Carries out what the parts asked of one another.
+    fn follow_up(&mut self) {
+        for command in std::mem::take(&mut self.context.follow_ups) {
+            self.apply(command);
+        }
+    }
+
+    /// Undoes or redoes a step: its value and the present one change places.
+    fn travel(&mut self, way: fn(&mut History<Step>) -> Option<&mut Step>) {
+        let cx = &mut self.context;
+        match way(&mut cx.undo) {
+            Some(Step::Settings(settings)) => {
+                std::mem::swap(&mut **settings, &mut cx.state.settings);
+                cx.state.previewed = None;
+            }
+            Some(Step::Tags { path, tagged }) => {
+                let now = self.many.tagged(&cx.state.many.rows, path);
+                let (path, tagged) = (path.clone(), std::mem::replace(tagged, now));
+                self.many.set_tagged(path, tagged, cx);
+            }
+            None => {}
+        }
+    }
 }

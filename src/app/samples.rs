@@ -15,7 +15,7 @@ impl Sample {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Pepper, Self::MissedPepper, Self::Ellipsoid];
 
-    /// What it is, in a few words.
+    /// A description in a few words.
     pub fn title(self) -> &'static str {
         match self {
             Self::Pepper => "Pepper whose axis is found",
@@ -24,7 +24,7 @@ impl Sample {
         }
     }
 
-    /// What it is called where files have paths. No such folder is expected to exist.
+    /// The name that stands in for a path. No such folder is expected to exist.
     pub fn path(self) -> &'static str {
         match self {
             Self::Pepper => "<sample>/pepper.ply",

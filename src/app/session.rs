@@ -1,4 +1,4 @@
-//! What survives a restart.
+//! The settings that survive a restart.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::state::{Settings, State};
 use crate::app::inspector::stages::Source;
-use crate::app::true_axes::KeptTrueAxes;
+use crate::app::true_axes::state::KeptTrueAxes;
 use crate::view::Style;
 use crate::view::{Coloring, Overlays, Theme};
 
@@ -14,22 +14,22 @@ use crate::view::{Coloring, Overlays, Theme};
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Session {
-    /// Which program wrote it: what another version cannot read, it leaves behind.
+    /// The version of the format. A session of another version is not read.
     pub version: u32,
     /// Parameters, and the plane that was looked at.
     pub settings: Settings,
-    /// How clouds were drawn.
+    /// The style in which clouds were drawn.
     pub style: KeptStyle,
     /// Files opened lately, the last one first.
     pub recent: Vec<PathBuf>,
     /// The files that were open.
     pub open: Vec<PathBuf>,
-    /// Which of them was shown.
+    /// The place of the one that was shown.
     pub current: Option<usize>,
-    /// How the table of clouds was sorted and filtered.
+    /// The sorting and the filter of the table of clouds.
     #[serde(rename = "folder")]
     pub many: crate::app::many::KeptMany,
-    /// How large the interface was.
+    /// The scale of the interface.
     pub interface_scale: f32,
     /// The arrangement of the panels, as the window wrote it.
     pub layout: Option<String>,
@@ -81,7 +81,7 @@ impl From<KeptStyle> for Style {
     }
 }
 
-/// Why a session could not be kept or found again. One sentence that names the file.
+/// The reason why a session could not be written or read: one sentence that names the file.
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
     /// The file cannot be read or written.
@@ -89,7 +89,7 @@ pub enum SessionError {
     Io {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         error: std::io::Error,
     },
     /// The file is no session.
@@ -97,9 +97,9 @@ pub enum SessionError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// Where it lies now.
+        /// The file's new place.
         kept_as: PathBuf,
-        /// Why.
+        /// The reason.
         error: serde_json::Error,
     },
 }
@@ -146,7 +146,7 @@ impl Session {
     /// The session that lies at `path`; the first one where there is none.
     ///
     /// # Errors
-    /// Where the file cannot be read. One that makes no sense is moved aside, so that it is not
+    /// Returns an error if the file cannot be read. One that makes no sense is moved aside, so that it is not
     /// overwritten.
     pub fn read(path: &Path) -> Result<Self, SessionError> {
         let io = |error| SessionError::Io {
@@ -181,7 +181,7 @@ impl Session {
     /// Writes the session aside and moves it to `path`, so that no half of one is ever there.
     ///
     /// # Errors
-    /// Where the file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), SessionError> {
         let write = || {
             if let Some(folder) = path.parent() {

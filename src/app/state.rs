@@ -4,25 +4,24 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use super::peduncle::{PeduncleCommand, PeduncleState};
-use super::samples::Sample;
+use super::peduncle::state::PeduncleState;
+use super::tool::Tool;
 use crate::app::inspector::look::Look;
 use crate::app::inspector::stages::{AnalyzedFruit, Source};
-use crate::app::many::{ManyCommand, ManyState};
-use crate::app::true_axes::{KeptTrueAxes, TrueAxesCommand, TrueAxesState};
+use crate::app::many::state::{KeptMany, ManyState};
+use crate::app::true_axes::state::{KeptTrueAxes, TrueAxesState};
 use crate::app::workers::Progress;
 use crate::evaluate::reference_of;
 use crate::fruit::Request;
-use crate::method::{Analysis, AxisEstimate, Params, PlaneDetail, PointDetail, Preset};
-use crate::render::{Camera, Projection, Viewport};
-use crate::view::{ShownPoints, Style, Theme, ViewPreset};
+use crate::method::{Analysis, AxisEstimate, Params, PlaneDetail, PointDetail};
+use crate::render::{Camera, Viewport};
+use crate::view::{ShownPoints, Style, Theme};
 
 pub use crate::evaluate::TruthChoice;
 
-/// Which candidate plane is looked at.
+/// The candidate plane that is looked at.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum PlaneChoice {
     /// The one with the lowest score, whichever it is.
@@ -37,10 +36,10 @@ pub enum PlaneChoice {
     },
 }
 
-/// What undo and redo bring back.
+/// The settings that undo and redo bring back.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// How clouds are analyzed.
+    /// The settings of the analysis.
     pub request: Request,
     /// The plane that is looked at.
     pub plane: PlaneChoice,
@@ -49,9 +48,9 @@ pub struct Settings {
 /// One cloud of the list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
-    /// Where it comes from.
+    /// The cloud's origin.
     pub source: Source,
-    /// Why it cannot be used, once that is known.
+    /// The reason why it cannot be used, once that is known.
     pub problem: Option<String>,
 }
 
@@ -62,22 +61,8 @@ pub struct Message {
     pub id: u64,
     /// Whether something failed.
     pub is_error: bool,
-    /// What there is to say, in a sentence.
+    /// The message, in a sentence.
     pub text: String,
-}
-
-/// What dragging in the view does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Tool {
-    /// It moves the camera, and a click picks a point.
-    #[default]
-    Navigate,
-    /// It moves the fruit center.
-    MoveCenter,
-    /// It goes around points that are the peduncle's.
-    Lasso,
-    /// It paints over points that are the peduncle's.
-    Brush,
 }
 
 /// Everything that the window shows.
@@ -89,11 +74,11 @@ pub enum Tool {
 pub struct State {
     /// The clouds that are open.
     pub entries: Vec<Entry>,
-    /// Which one is shown.
+    /// The place of the one that is shown.
     pub current: Option<usize>,
     /// Files opened lately, the last one first.
     pub recent: Vec<PathBuf>,
-    /// What undo brings back.
+    /// The settings that undo brings back.
     pub settings: Settings,
     /// Whether there is something to undo.
     pub can_undo: bool,
@@ -105,13 +90,13 @@ pub struct State {
     pub unanalyzed: Option<(Arc<ShownPoints>, Option<String>)>,
     /// The axes to compare with.
     pub references: Vec<AxisEstimate>,
-    /// Which of them the error is measured against.
+    /// The one that the error is measured against.
     pub truth: TruthChoice,
-    /// What ought to be known about the result, in sentences.
+    /// Warnings about the result, a sentence each.
     pub warnings: Vec<String>,
     /// Whether the analysis is of older settings than those that are shown.
     pub is_stale: bool,
-    /// How far the analysis under way is.
+    /// The progress of the analysis under way.
     pub progress: Option<Progress>,
     /// Whether the analysis was called off by hand.
     pub was_cancelled: bool,
@@ -119,19 +104,19 @@ pub struct State {
     pub previewed: Option<usize>,
     /// Whether the planes are played through.
     pub is_playing: bool,
-    /// How the cloud is drawn.
+    /// The style in which the cloud is drawn.
     pub style: Style,
-    /// What is drawn.
+    /// The newest view of the cloud.
     pub look: Option<Arc<Look>>,
     /// Whether what is drawn is of an older plane or coloring.
     pub is_look_pending: bool,
-    /// Where the view is seen from.
+    /// The camera.
     pub camera: Camera,
     /// The view's size, in logical pixels, when it was last drawn.
     pub viewport: Viewport,
     /// Physical pixels a logical one.
     pub pixels_per_point: f32,
-    /// What dragging does.
+    /// The tool of the left mouse button.
     pub tool: Tool,
     /// Picking the peduncle.
     pub peduncle: PeduncleState,
@@ -141,11 +126,11 @@ pub struct State {
     pub pointed_at: Option<usize>,
     /// The contributions that are brushed, in centimeters.
     pub brush_cm: Option<RangeInclusive<f64>>,
-    /// What there is to say.
+    /// The messages that have not been dismissed.
     pub messages: Vec<Message>,
     /// Whether pictures are drawn by the processor, which wants fewer points while the camera moves.
     pub is_software: bool,
-    /// How large the interface is; 1 as the screen asks for.
+    /// The scale of the interface; 1 as the screen asks for.
     pub interface_scale: f32,
     /// The open clouds as a set.
     pub many: ManyState,
@@ -186,7 +171,7 @@ impl State {
             messages: Vec::new(),
             is_software: false,
             interface_scale: 1.0,
-            many: ManyState::new(crate::app::many::KeptMany::default()),
+            many: ManyState::new(KeptMany::default()),
             true_axes: TrueAxesState::new(KeptTrueAxes::default()),
         }
     }
@@ -264,107 +249,4 @@ impl State {
     pub fn is_dark(&self) -> bool {
         self.style.theme == Theme::Dark
     }
-}
-
-/// Something that a panel asks for. Panels change nothing themselves.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Command {
-    /// Open files and folders, and show the first of them.
-    Open(Vec<PathBuf>),
-    /// Open a sample that the program brings along.
-    OpenSample(Sample),
-    /// Show a cloud of the list.
-    Show(usize),
-    /// Show the one so many further on.
-    Go(isize),
-    /// Take the current cloud off the list.
-    Close,
-    /// Read the current cloud again.
-    Reload,
-
-    /// Analyze as asked. Changes of one gesture are one step of undo.
-    Set {
-        /// What is wanted now.
-        request: Box<Request>,
-        /// The control that is being dragged.
-        gesture: Option<&'static str>,
-    },
-    /// The control that was dragged was let go.
-    EndGesture,
-    /// Back to a preset's reading of the paper; u, τ, k and the rest stay.
-    UsePreset(Preset),
-    /// Take back the last change.
-    Undo,
-    /// Take back the last undo.
-    Redo,
-    /// Call the analysis off.
-    Cancel,
-    /// Analyze after all.
-    Resume,
-    /// Measure errors against another reference.
-    Compare(TruthChoice),
-
-    /// Look at a plane.
-    LookAt(PlaneChoice),
-    /// Look at the plane so many further on in the grid.
-    Step(isize),
-    /// Look at the plane so many places further on in the ranking.
-    StepRank(isize),
-    /// Look at a plane while the cursor is on it.
-    Preview(Option<usize>),
-    /// Play through all planes, or stop.
-    Play(bool),
-
-    /// Draw otherwise.
-    Style(Box<Style>),
-    /// Gray the points whose contribution is outside.
-    Brush(Option<RangeInclusive<f64>>),
-    /// Pick the point at a place of the view, in logical pixels.
-    PickAt(DVec2),
-    /// Tell which point is under the cursor.
-    PointAt(Option<DVec2>),
-    /// Pick a point by its index among the shown ones, or none.
-    Pick(Option<usize>),
-
-    /// See from elsewhere.
-    Camera(Box<Camera>),
-    /// See from one of the usual places.
-    View(ViewPreset),
-    /// Show everything, from the same direction.
-    Frame,
-    /// Turn about the picked point, or about the fruit center.
-    PivotOnPicked,
-    /// How depth shows.
-    Project(Projection),
-    /// What dragging does.
-    Use(Tool),
-    /// Put the fruit center somewhere, in the file's unit and frame.
-    MoveCenter(glam::DVec3),
-    /// Pick the peduncle.
-    Peduncle(PeduncleCommand),
-
-    /// Something of the set of open clouds.
-    Many(ManyCommand),
-
-    /// Something about axes set by hand.
-    TrueAxes(TrueAxesCommand),
-
-    /// Make the interface larger or smaller.
-    Scale(f32),
-    /// Forget a message.
-    Dismiss(u64),
-    /// Say something.
-    Say {
-        /// Whether something failed.
-        is_error: bool,
-        /// What there is to say.
-        text: String,
-    },
-    /// Save the view as a PNG.
-    SaveImage {
-        /// Where.
-        path: PathBuf,
-        /// Width and height in pixels.
-        size_px: [u32; 2],
-    },
 }

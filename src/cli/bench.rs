@@ -14,9 +14,12 @@ use axiscope::geometry::{Cloud, Plane, Unit, estimate_normals};
 use axiscope::method::{
     CandidateGrid, CenterMethod, Preset, RandomSearch, Surface, find_center, plane_detail, plane_terms,
 };
+use axiscope::neighbors::Neighbors;
 use axiscope::ply::{self, Encoding, WriteOptions};
 use clap::Args;
 use glam::{DVec3, Vec3};
+
+use super::peers;
 
 /// Time each stage on simulated clouds, beside other programs where they are installed.
 ///
@@ -133,15 +136,18 @@ fn read_stages(args: &Bench, folder: &Folder, out: &mut impl Write) -> anyhow::R
         )?;
         let open3d = "import open3d\ndef work(f): open3d.io.read_point_cloud(f)";
         let trimesh = "import trimesh\ndef work(f): trimesh.load(f)";
+        let mut ply_rs = f64::INFINITY;
         let ms = least(args.runs, || {
-            read_cloud(&path).map(drop)?;
-            Ok(None)
+            let ms = timed(|| Ok(read_cloud(&path).map(drop)?))?;
+            ply_rs = ply_rs.min(timed(|| peers::ply_rs_read(&path))?);
+            Ok(Some(ms))
         })?;
         Row {
             stage,
             points: count,
             ms,
             others: vec![
+                ("ply-rs-bw", Some(ply_rs)),
                 ("Open3D", python(args, open3d, &path)),
                 ("trimesh", python(args, trimesh, &path)),
             ],
@@ -219,6 +225,7 @@ fn analysis_stages(args: &Bench, count: usize, folder: &Folder, out: &mut impl W
             others: vec![("nanoflann", other.is_finite().then_some(other))],
         })?;
     }
+    search_stages(args, &points, center, &mut row)?;
     // Whoever looks at a plane has had its score computed, and so the index of the points.
     let surface = Surface::new(&points, &normals)?;
     surface.neighbors();
@@ -243,6 +250,67 @@ fn analysis_stages(args: &Bench, count: usize, folder: &Folder, out: &mut impl W
         others: Vec::new(),
     })?;
     Ok(())
+}
+
+/// The search for neighbors alone, on one thread, with the building of the tree.
+fn search_stages(
+    args: &Bench,
+    points: &[DVec3],
+    center: DVec3,
+    row: &mut impl FnMut(Row<'_>) -> std::io::Result<()>,
+) -> anyhow::Result<()> {
+    let index = Neighbors::new(points).context("there are points")?;
+    let in_order: Vec<DVec3> = index.order().iter().map(|&i| points[i as usize]).collect();
+    // A sixth of the planes, of every angle.
+    let planes = CandidateGrid::new(6)?.candidates().step_by(7);
+    let mirrored = planes.flat_map(|candidate| {
+        let plane = Plane {
+            point: center,
+            normal: candidate.normal,
+        };
+        in_order.iter().map(move |&p| plane.reflect_point(p))
+    });
+    let mirrored: Vec<DVec3> = mirrored.collect();
+    let k = NonZeroUsize::new(30).context("above zero")?;
+    for stage in ["nearest, mirrored", "30 nearest, one thread"] {
+        let is_mirrored = stage == "nearest, mirrored";
+        let mut kiddo = f64::INFINITY;
+        let ms = least(args.runs, || {
+            let ms = timed(|| {
+                let index = Neighbors::new(points).context("there are points")?;
+                if is_mirrored {
+                    black_box(index.nearest_of_each(&mirrored));
+                } else {
+                    for &query in &in_order {
+                        black_box(index.nearest_places(query, k));
+                    }
+                }
+                Ok(())
+            })?;
+            kiddo = kiddo.min(timed(|| {
+                if is_mirrored {
+                    peers::kiddo_nearest(points, &mirrored)
+                } else {
+                    peers::kiddo_k_nearest(points, &in_order, k)
+                }
+            })?);
+            Ok(Some(ms))
+        })?;
+        row(Row {
+            stage,
+            points: points.len(),
+            ms,
+            others: vec![("kiddo", Some(kiddo))],
+        })?;
+    }
+    Ok(())
+}
+
+/// The time that work takes in milliseconds.
+fn timed(work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<f64> {
+    let started = Instant::now();
+    work()?;
+    Ok(started.elapsed().as_secs_f64() * 1e3)
 }
 
 /// The least time of several runs in milliseconds; a run may tell its own.

@@ -6,6 +6,7 @@ mod annotations;
 mod bench;
 mod evaluate;
 mod options;
+mod peers;
 #[cfg(feature = "window")]
 mod picture_options;
 mod progress;

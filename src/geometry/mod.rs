@@ -4,6 +4,7 @@
 //! they are shown; code that needs `f32` (the GPU, a search) subtracts a nearby origin first.
 
 mod cloud;
+mod eigen;
 mod extent;
 mod filters;
 mod line;
@@ -15,6 +16,7 @@ mod unit;
 mod voxels;
 
 pub use cloud::{Cloud, LengthMismatch};
+pub(crate) use eigen::symmetric_eigen;
 pub use extent::Extent;
 pub use filters::statistical_inliers;
 pub(crate) use line::angles_between_directions_rad;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::neighbors::symmetric_eigen;
+use super::symmetric_eigen;
 
 /// Mean and covariance of weighted points.
 #[derive(Debug, Clone, Copy, PartialEq)]

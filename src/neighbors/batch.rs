@@ -54,15 +54,8 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
     /// copies of one of these.
     #[inline(always)]
     pub(crate) fn find(&mut self, queries: &[Column; 3], size: usize, result: &mut BlockResult) {
-        let (simd, tree, scale) = (self.simd, &self.index.tree, self.index.scale);
-        let unscale = 1.0 / (scale * scale);
-        let mut scaled = [[0.0; BLOCK]; 3];
-        for e in 0..3 {
-            for i in 0..BLOCK {
-                scaled[e][i] = queries[e][i] * scale;
-            }
-        }
-        let is_near = self.block.begin(simd, &scaled);
+        let (simd, tree) = (self.simd, &self.index.tree);
+        let is_near = self.block.begin(simd, queries);
         if !is_near {
             let center = self.block.center;
             let leaf = tree.descend(&center);
@@ -71,21 +64,18 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
         self.search();
         let (count, last) = self.block.candidates();
         for i in 0..size {
-            let query = DVec3::new(scaled[0][i], scaled[1][i], scaled[2][i]);
+            let query = DVec3::new(queries[0][i], queries[1][i], queries[2][i]);
             let looked = &self.block.looked[last[i] as usize];
-            let place = if count[i] == 1 {
-                self.block.nearest_in(simd, tree, looked, i)
-            } else {
-                None
-            };
-            let (squared, position) = if let Some(place) = place {
-                let position = tree.positions(looked.leaf).start + place;
-                (tree.distance_squared(position, query), position)
-            } else {
-                self.exact(i, query)
+            let mut position = None;
+            if count[i] == 1 {
+                position = self.block.nearest_in(simd, tree, looked, i);
+            }
+            let (squared, position) = match position {
+                Some(position) => (tree.point(position).distance_squared(query), position),
+                None => self.exact(i, query),
             };
             result.position[i] = position as u32;
-            result.distance_squared[i] = squared * unscale;
+            result.distance_squared[i] = squared;
         }
         self.last = result.position[size - 1] as usize;
     }
@@ -129,7 +119,8 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
 
     /// The squared distance and the position of the place nearest to query `i`, among all that single
     /// precision could not tell apart.
-    #[inline(always)]
+    #[cold]
+    #[inline(never)]
     fn exact(&self, i: usize, query: DVec3) -> (f64, usize) {
         let (index, tree) = (self.index, &self.index.tree);
         let mut best = (f64::INFINITY, usize::MAX);

@@ -33,8 +33,7 @@ pub(super) struct Looked {
 /// With q a query and c a leaf's center, both seen from the queries' center, and p a point of the leaf, seen
 /// from c, the squared distance is |q|² + |c|² - 2 q·c + |p|² - 2 (q - c)·p. The first term is the same for
 /// all points and left out, and the second, which is computed in double precision, is replaced by what it
-/// exceeds a reference by. All that remains is small or well known, so that single precision
-/// holds the differences.
+/// exceeds a reference by. The rest is small or well known: single precision holds the differences.
 #[derive(Default)]
 pub(super) struct Block {
     /// The mean of the queries, and the largest distance of a query from it.
@@ -265,7 +264,7 @@ impl Block {
         (count, last)
     }
 
-    /// The place in a leaf of the query's nearest point there, if single precision tells them apart.
+    /// The position of the point of a leaf that is nearest to a query, if single precision tells it.
     #[inline(always)]
     pub(super) fn nearest_in<S: Simd>(
         &self,
@@ -287,7 +286,7 @@ impl Block {
             excess.0[j] = times_plus::<S>(w[2], z[j], more);
         }
         let limit = excess.least(simd) + looked.ties;
-        // The sum of these codes tells the place of a single one; no sum of several is a code.
+        // Each place within the limit adds its code. The sum of several is no code.
         let mut codes = Lanes::default();
         for j in 0..LEAF {
             codes.0[j] = if excess.0[j] <= limit {
@@ -297,6 +296,6 @@ impl Block {
             };
         }
         let place = (codes.sum(simd) as usize).wrapping_sub(LEAF);
-        (place < LEAF).then_some(place)
+        (place < LEAF).then_some(looked.leaf * LEAF + place)
     }
 }

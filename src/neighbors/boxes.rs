@@ -1,10 +1,9 @@
 //! Oriented bounding boxes, and the distances from a point to sixteen of them at a time.
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use pulp::Simd;
 
-use super::eigen::about_eigenvectors;
-use super::lanes::{HUGE, ROUNDING, SUM_ROUNDING, rounding_of_squared, times_plus};
+use super::lanes::{ROUNDING, SUM_ROUNDING, rounding_of_squared, times_plus};
 
 /// Boxes that are tested together.
 pub(super) const WIDTH: usize = 16;
@@ -23,18 +22,13 @@ impl OrientedBox {
     /// The box around some points.
     pub(super) fn around(points: &[DVec3]) -> Self {
         let mean = points.iter().sum::<DVec3>() / points.len() as f64;
-        let mut m = [0.0; 6];
+        let mut covariance = DMat3::ZERO;
         for &p in points {
             let q = p - mean;
-            m[0] += q.x * q.x;
-            m[1] += q.x * q.y;
-            m[2] += q.x * q.z;
-            m[3] += q.y * q.y;
-            m[4] += q.y * q.z;
-            m[5] += q.z * q.z;
+            covariance += DMat3::from_cols(q * q.x, q * q.y, q * q.z);
         }
         // The extents are measured along the axes as they are stored.
-        let axes = about_eigenvectors(m).map(DVec3::as_vec3);
+        let axes = principal_axes(covariance).map(DVec3::as_vec3);
         let [a, b, c] = axes.map(Vec3::as_dvec3);
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for &p in points {
@@ -49,6 +43,29 @@ impl OrientedBox {
             half: 0.5 * (high - low),
         }
     }
+}
+
+/// Unit vectors at right angles, about along the principal axes of points with a covariance.
+fn principal_axes(covariance: DMat3) -> [DVec3; 3] {
+    // The columns of powers turn towards the axis of the largest variance.
+    let mut power = covariance;
+    for _ in 0..4 {
+        let trace = power.x_axis.x + power.y_axis.y + power.z_axis.z;
+        power *= 1.0 / trace;
+        power = power * power;
+    }
+    let columns = [power.x_axis, power.y_axis, power.z_axis];
+    let longest = columns
+        .into_iter()
+        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    let Some(first) = longest.and_then(DVec3::try_normalize) else {
+        return DVec3::AXES;
+    };
+    // The other two lie in the plane across: an angle remains.
+    let (u, v) = first.any_orthonormal_pair();
+    let (along_u, along_v) = (covariance * u, covariance * v);
+    let (sin, cos) = (0.5 * (2.0 * along_u.dot(v)).atan2(along_u.dot(u) - along_v.dot(v))).sin_cos();
+    [first, cos * u + sin * v, cos * v - sin * u]
 }
 
 /// Up to [`WIDTH`] boxes, each number of all of them side by side.
@@ -102,11 +119,8 @@ impl BoxGroup {
             }
             let reach = (o.length() + of.half.length()) as f32;
             group.rounding[lane] = ROUNDING * reach;
-            group.squared[lane] = if reach * reach < HUGE {
-                o.length_squared() as f32 - ROUNDING * reach * reach
-            } else {
-                f32::NEG_INFINITY
-            };
+            let rounding = ROUNDING * reach * reach + rounding_of_squared(reach);
+            group.squared[lane] = o.length_squared() as f32 - rounding;
         }
         group
     }
@@ -147,16 +161,16 @@ impl BoxGroup {
         sum
     }
 
-    /// The box that is most promising for the nearest point to `from`: a near one, and rather a small one,
-    /// since a large one may hold nothing nearby.
+    /// The box that is most promising for the nearest point to `from`: the nearest one, unless it is so much
+    /// larger than another that it may hold nothing nearby.
     pub(super) fn most_promising<S: Simd>(&self, from: &[f64; 3]) -> usize {
-        let mut promises = self.excesses::<S>(from, 0.0);
-        for i in 0..WIDTH {
-            for e in 0..3 {
-                promises[i] += self.half[e][i] * self.half[e][i];
-            }
-        }
-        let nearest = (0..WIDTH).min_by(|&a, &b| promises[a].total_cmp(&promises[b]));
-        nearest.unwrap_or(0)
+        let excesses = self.excesses::<S>(from, 0.0);
+        let promise = |&i: &usize| {
+            let [x, y, z] = self.half.map(|half| half[i] * half[i]);
+            excesses[i] + (x + y + z) * (1.0 / 64.0)
+        };
+        (0..WIDTH)
+            .min_by(|a, b| promise(a).total_cmp(&promise(b)))
+            .unwrap_or(0)
     }
 }

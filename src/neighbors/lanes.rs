@@ -16,15 +16,12 @@ pub(super) const SUM_ROUNDING: f32 = 1.0 / (1 << 22) as f32;
 /// products that are too large.
 #[inline(always)]
 pub(super) fn rounding_of_squared(size: f32) -> f32 {
-    if size * size < HUGE {
+    if size * size < 1e36 {
         size * size * (1.0 / (1u64 << 48) as f32) + 1e-37
     } else {
         f32::INFINITY
     }
 }
-
-/// Squares that are larger could leave single precision's range.
-pub(super) const HUGE: f32 = 1e36;
 
 /// A number for each query of a block, or for each point of a leaf.
 #[derive(Debug, Clone, Copy, Default)]
@@ -39,7 +36,6 @@ impl Lanes {
         S::as_simd_f32s(&self.0).0
     }
 
-    /// The numbers as vectors.
     #[inline(always)]
     pub(super) fn vectors_mut<S: Simd>(&mut self) -> &mut [S::f32s] {
         S::as_mut_simd_f32s(&mut self.0).0

@@ -1,43 +1,33 @@
 //! Exact nearest neighbors of many queries that lie close together but far from the points.
 //!
-//! # Why not a k-d tree
+//! A k-d tree goes down to the cell of a query and back up, into every cell that is nearer than the best point
+//! so far. Among the points that is quick: few cells are nearer. But the queries here are the points of a
+//! surface mirrored in a plane, and most planes carry them well off the surface. From there a large part of the
+//! surface is nearly as far as its nearest point, and cells whose sides follow the coordinate axes stick out of a
+//! slanted surface by about their own size: hundreds of them are nearer than the nearest point. And each query goes
+//! that way alone, though the one before it has just gone nearly the same. Three things are done instead.
 //!
-//! A k-d tree answers a query by going down to the cell that holds it and back up, into every cell that is
-//! nearer than the best point so far. That is quick where the query lies among the points: few cells are
-//! nearer. The method's queries do not. They are the points of a surface mirrored in a plane, and most planes
-//! carry them well off the surface. From there a large part of the surface is nearly as far as its nearest
-//! point, and the cells of a k-d tree, whose sides follow the coordinate axes, stick out of a slanted surface by
-//! about their own size: hundreds of them are nearer than the nearest point. In addition each query
-//! goes that way alone, though the one before it has just gone nearly the same.
+//! **Oriented boxes** (`boxes`). Points are sorted into leaves of 32 by halving along the longest side, as for a
+//! k-d tree. But leaves, and nodes of 16 leaves, of 256 leaves and so on, have boxes along the principal axes of their
+//! points. Such a box is as thin as the surface is within it, and from afar it is nearly as far as its points.
+//! The boxes of 16 children are tested at a time, one in each lane of a vector.
 //!
-//! # What is done instead
+//! **Blocks of coherent queries** (`batch`). A block of 32 queries traverses the tree once, from its center, with
+//! a reach that covers what every query has found. It starts with the nearest point of the query before it, so
+//! that most of the tree is out of reach from the first. Leaves that are hardly farther than what was found are
+//! looked into at once. The others wait, and are then tested against each of the 32 queries.
 //!
-//! **Oriented boxes.** Points are sorted into leaves of 32 by halving along the longest side, as for a k-d tree.
-//! But leaves, and nodes of 16 leaves, of 256 leaves and so on, are bounded by boxes along the principal axes of
-//! their points. Such a box is as thin as the surface is within it, and from afar its distance is nearly that
-//! of its points. The boxes of a node's 16 children are tested at a time, one in each lane of a vector
-//! (`boxes`).
+//! **Single precision with a bound, then double** (`block`). The squared distances of 32 queries from 32 points
+//! take a few hundred vector instructions in single precision, which keeps too few digits to tell neighbors
+//! apart far away. So what is large and common to all candidates is left out, and a bound on all rounding makes
+//! each distance an interval. Only leaves whose interval reaches below the least upper end may hold the nearest
+//! point: mostly a single leaf, and in it a single point. Otherwise, as with points that are equally far, the few
+//! candidates are compared in double precision. Every answer is thus the one that double precision gives for
+//! all points, whatever the vector instructions of the machine, and of points that are equally far it is the one with
+//! the lowest index.
 //!
-//! **Blocks of queries.** Queries are answered 32 at a time (`batch`). A block traverses the tree once: from its
-//! center, with a reach that covers what every query has found (`Block::update_reach`). It starts with the
-//! nearest point of the query before it, so that most of the tree is out of reach from the first. Leaves that
-//! are hardly farther than what was found are looked into at once; the others wait, and are first tested
-//! against all 32 queries, by which time most of them are out of reach.
-//!
-//! **Single precision, with a bound.** Squared distances of 32 queries from 32 points take a few hundred vector
-//! instructions in single precision. Of a large squared distance it keeps too few digits to tell neighbors
-//! apart, so what is large and common to all candidates is left out: distances are kept as what they
-//! exceed |q|² and the squared distance of the starting point by (`block`). A bound on all rounding makes each
-//! of them an interval. Only leaves whose interval reaches below the least upper end may hold the nearest point;
-//! mostly that is a single leaf, and in it a single point. Where it is not, as with points that are equally far,
-//! the few candidates are compared in double precision. Every answer is thus the one that double precision
-//! gives for all points, whatever the vector instructions of the machine, and of points that are equally far it
-//! is the one with the lowest index.
-//!
-//! The bound grows with the size of boxes and leaves, and with their distance in single precision's last digit
-//! only. Where rounding leaves no number, every comparison counts it as within reach. Hence clumps, strays
-//! and huge coordinates make a search slower, never wrong.
-//!
+//! The bound grows with the size of boxes and leaves, hardly with their distance. Where rounding leaves no number,
+//! a comparison counts as within reach. Clumps, strays and huge coordinates thus make a search slower, never wrong.
 //! Exact duplicates are removed first: no box can tell them apart.
 
 #![allow(
@@ -51,7 +41,6 @@
 mod batch;
 mod block;
 mod boxes;
-mod eigen;
 mod lanes;
 mod leaf;
 mod nearest_places;
@@ -64,7 +53,6 @@ use pulp::Simd;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 pub(crate) use batch::{BatchSearch, BlockResult};
-pub(crate) use eigen::symmetric_eigen;
 pub(crate) use lanes::BLOCK;
 use order::spatial_order;
 use tree::Tree;
@@ -87,8 +75,6 @@ pub struct Neighbor {
 #[derive(Debug)]
 pub struct Neighbors {
     tree: Tree,
-    /// The tree's length of a length of one: a power of two, so that nothing is rounded.
-    scale: f64,
     /// The lowest point index of each place, in the tree's order.
     first: Vec<u32>,
     /// Where the points of each place start in `order`, and the number of points at the end.
@@ -98,15 +84,13 @@ pub struct Neighbors {
 }
 
 impl Neighbors {
-    /// Indexes `points`, which must be finite. `None` if there are none, or more than [`u32::MAX`] of
-    /// them.
+    /// Indexes `points`, which must be finite. `None` if there are none, or more than [`u32::MAX`].
     pub fn new(points: &[DVec3]) -> Option<Self> {
         if points.is_empty() || u32::try_from(points.len()).is_err() {
             return None;
         }
-        let scale = scale_of(points);
         let (lowest, place_of) = distinct_places(points);
-        let places: Vec<DVec3> = lowest.iter().map(|&i| points[i as usize] * scale).collect();
+        let places: Vec<DVec3> = lowest.iter().map(|&i| points[i as usize]).collect();
         let place_order = spatial_order(&places);
         let in_order: Vec<DVec3> = place_order.iter().map(|&place| places[place as usize]).collect();
         let mut position = vec![0; places.len()];
@@ -129,7 +113,6 @@ impl Neighbors {
         }
         Some(Self {
             tree: Tree::new(&in_order),
-            scale,
             first: place_order.iter().map(|&place| lowest[place as usize]).collect(),
             start,
             order,
@@ -146,8 +129,7 @@ impl Neighbors {
         &self.order
     }
 
-    /// The place nearest to `query`, which must be finite; of several as near the one of the lowest
-    /// index.
+    /// The place nearest to `query`, which must be finite; of several as near the one of the lowest index.
     pub fn nearest(&self, query: DVec3) -> Neighbor {
         self.nearest_of_each(&[query])[0]
     }
@@ -165,16 +147,12 @@ impl Neighbors {
         &self.first
     }
 
-    fn multiplicity(&self, position: usize) -> usize {
-        (self.start[position + 1] - self.start[position]) as usize
-    }
-
     #[inline(always)]
     fn neighbor(&self, position: usize, distance_squared: f64) -> Neighbor {
         Neighbor {
             index: self.first[position] as usize,
             distance_squared,
-            multiplicity: self.multiplicity(position),
+            multiplicity: self.points_at(position).len(),
         }
     }
 }
@@ -195,22 +173,6 @@ fn distinct_places(points: &[DVec3]) -> (Vec<u32>, Vec<u32>) {
     (lowest, place_of)
 }
 
-/// A power of two that brings the median step from a point to the next, as they are stored, to about one:
-/// far from where squares leave single precision's range, whatever the unit and however far a few strays.
-fn scale_of(points: &[DVec3]) -> f64 {
-    let pairs = points.windows(2).step_by(points.len().div_ceil(1000));
-    let mut steps: Vec<f64> = pairs
-        .map(|pair| (pair[1] - pair[0]).abs().max_element())
-        .filter(|step| step.is_normal())
-        .collect();
-    if steps.is_empty() {
-        return 1.0;
-    }
-    let middle = steps.len() / 2;
-    let (_, &mut median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
-    2f64.powi(-(median.log2() as i32).clamp(-500, 500))
-}
-
 /// [`Neighbors::nearest_of_each`] by the widest vector instructions that this machine has.
 struct NearestOfEach<'a> {
     index: &'a Neighbors,
@@ -226,18 +188,12 @@ impl pulp::WithSimd for NearestOfEach<'_> {
         let mut search = BatchSearch::new(self.index, simd);
         let mut result = BlockResult::default();
         for queries in self.queries.chunks(BLOCK) {
-            let mut columns = [[0.0; BLOCK]; 3];
-            for i in 0..BLOCK {
-                let query = queries[i.min(queries.len() - 1)];
-                for e in 0..3 {
-                    columns[e][i] = query[e];
-                }
-            }
+            let column = |e: usize| std::array::from_fn(|i| queries[i.min(queries.len() - 1)][e]);
+            let columns = [column(0), column(1), column(2)];
             search.find(&columns, queries.len(), &mut result);
-            for i in 0..queries.len() {
-                let position = result.position[i] as usize;
-                all.push(self.index.neighbor(position, result.distance_squared[i]));
-            }
+            let found = result.position.iter().zip(&result.distance_squared);
+            let neighbor = |(&position, &squared)| self.index.neighbor(position as usize, squared);
+            all.extend(found.take(queries.len()).map(neighbor));
         }
         all
     }

@@ -14,13 +14,10 @@ impl Neighbors {
     /// there are fewer), nearest first, of those as near the one of the lowest index first. The last
     /// place may hold more points than are still wanted.
     pub fn nearest_places(&self, query: DVec3, count: NonZeroUsize) -> Vec<Neighbor> {
-        let query = query * self.scale;
         let mut found = Vec::new();
         self.gather(query, count, self.tree.descend(&query.to_array()), &mut found);
         self.put_in_order(count, &mut found);
-        let neighbor = |&(squared, position): &(f64, u32)| {
-            self.neighbor(position as usize, squared / (self.scale * self.scale))
-        };
+        let neighbor = |&(squared, position): &(f64, u32)| self.neighbor(position as usize, squared);
         found.iter().map(neighbor).collect()
     }
 
@@ -68,7 +65,7 @@ impl Neighbors {
         found.sort_unstable_by(|a, b| self.by_distance(a, b));
         let mut wanted = count.get();
         let enough = found.iter().position(|&(_, position)| {
-            let here = self.multiplicity(position as usize);
+            let here = self.points_at(position as usize).len();
             let last = here >= wanted;
             wanted = wanted.saturating_sub(here);
             last

@@ -15,9 +15,13 @@ pub(super) struct Traversal {
     from: [f64; 3],
     /// A squared distance that others are compared with.
     reference: f64,
-    /// The nodes to visit: their excesses over the reference, levels (0 for leaves) and numbers.
+    /// The groups to visit: their excesses over the reference, levels and numbers.
     stack: [(f32, u32, u32); STACK],
     height: usize,
+    /// The leaves of `group` that are still to be visited, a bit each, and the excesses of all of them.
+    near: u32,
+    group: usize,
+    excesses: [f32; WIDTH],
 }
 
 impl Traversal {
@@ -25,12 +29,15 @@ impl Traversal {
     #[inline(always)]
     pub(super) fn new(tree: &Tree, from: [f64; 3], reference: f64) -> Self {
         let mut stack = [(0.0, 0, 0); STACK];
-        stack[0] = (f32::NEG_INFINITY, tree.levels.len() as u32, 0);
+        stack[0] = (f32::NEG_INFINITY, tree.levels.len() as u32 - 1, 0);
         Self {
             from,
             reference,
             stack,
             height: 1,
+            near: 0,
+            group: 0,
+            excesses: [0.0; WIDTH],
         }
     }
 
@@ -38,39 +45,45 @@ impl Traversal {
     /// that excess.
     #[inline(always)]
     pub(super) fn next<S: Simd>(&mut self, tree: &Tree, reach: f32) -> Option<(usize, f32)> {
-        while self.height > 0 {
+        loop {
+            while self.near != 0 {
+                let i = self.near.trailing_zeros() as usize;
+                self.near &= self.near - 1;
+                let leaf = self.group * WIDTH + i;
+                // NaN is within reach.
+                if !(self.excesses[i] > reach) && leaf < tree.leaves.len() {
+                    return Some((leaf, self.excesses[i]));
+                }
+            }
+            if self.height == 0 {
+                return None;
+            }
             self.height -= 1;
-            let (excess, level, node) = self.stack[self.height];
-            let (level, node) = (level as usize, node as usize);
-            // Compared so that NaN is within reach.
+            let (excess, level, group) = self.stack[self.height];
             if excess > reach {
                 continue;
             }
-            if level == 0 {
-                return Some((node, excess));
-            }
-            let excesses = tree.levels[level - 1][node].excesses::<S>(&self.from, self.reference);
+            let (level, group) = (level as usize, group as usize);
+            let excesses = tree.levels[level][group].excesses::<S>(&self.from, self.reference);
             // Bit after bit and then all at once, as vectors can.
             let mut bits = [0u32; WIDTH];
             for i in 0..WIDTH {
                 bits[i] = if excesses[i] > reach { 0 } else { 1 << i };
             }
             let mut near = bits.iter().fold(0, |all, bit| all | bit);
-            let below = if level > 1 {
-                tree.levels[level - 2].len()
-            } else {
-                tree.leaves.len()
-            };
+            if level == 0 {
+                (self.near, self.group, self.excesses) = (near, group, excesses);
+                continue;
+            }
             while near != 0 {
-                // The last first, so that the first is visited first.
-                let i = 31 - near.leading_zeros() as usize;
-                near ^= 1 << i;
-                if node * WIDTH + i < below {
-                    self.stack[self.height] = (excesses[i], level as u32 - 1, (node * WIDTH + i) as u32);
+                let i = near.trailing_zeros() as usize;
+                near &= near - 1;
+                let below = group * WIDTH + i;
+                if below < tree.levels[level - 1].len() {
+                    self.stack[self.height] = (excesses[i], level as u32 - 1, below as u32);
                     self.height += 1;
                 }
             }
         }
-        None
     }
 }

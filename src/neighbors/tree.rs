@@ -27,27 +27,18 @@ impl Tree {
     /// Builds the tree on `points`, of which there must be some, in the order in which it holds them.
     pub(super) fn new(points: &[DVec3]) -> Self {
         let (mut size, mut levels) = (LEAF, Vec::new());
-        let mut leaves = Vec::with_capacity(points.len().div_ceil(LEAF));
+        let mut leaves: Vec<Leaf> = Vec::new();
+        let leaf = |(points, bounds): (&[DVec3], &OrientedBox)| Leaf::new(points, bounds);
         loop {
             // The boxes of small nodes by sixteens, of large ones one by one.
+            let nodes = if points.len() > 256 * size { WIDTH } else { 1 };
             let work = |range: Range<usize>| -> Vec<OrientedBox> {
                 points[range].chunks(size).map(OrientedBox::around).collect()
             };
-            let piece = if points.len() > 256 * size {
-                WIDTH * size
-            } else {
-                size
-            };
-            let boxes = map_pieces(points.len(), piece, &(), work)
-                .unwrap_or_default()
-                .concat();
+            let boxes = map_pieces(points.len(), nodes * size, &(), work).unwrap_or_default();
+            let boxes = boxes.concat();
             if size == LEAF {
-                let points = points.chunks(LEAF);
-                leaves.extend(
-                    points
-                        .zip(&boxes)
-                        .map(|(points, bounds)| Leaf::new(points, bounds)),
-                );
+                leaves = points.chunks(LEAF).zip(&boxes).map(leaf).collect();
             }
             levels.push(boxes.chunks(WIDTH).map(BoxGroup::new).collect());
             if boxes.len() <= WIDTH {
@@ -108,13 +99,6 @@ impl Tree {
             }
         }
         best
-    }
-
-    /// The squared distance from `q` to the point at a position, as [`Tree::distances_squared`] has it.
-    #[inline(always)]
-    pub(super) fn distance_squared(&self, position: usize, q: DVec3) -> f64 {
-        let d = q - self.point(position);
-        d.x * d.x + d.y * d.y + d.z * d.z
     }
 
     /// A leaf near `from`: down the most promising boxes.

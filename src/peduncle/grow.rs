@@ -1,9 +1,14 @@
 //! Growing and shrinking of a selection of points.
 
+use std::num::NonZeroUsize;
+
+use glam::DVec3;
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use rustc_hash::FxHashSet;
+
 use crate::geometry::{Extent, PointSet};
 use crate::neighbors::Neighbors;
 use crate::parallel::{Cancelled, Watch, map_pieces};
-use glam::DVec3;
 
 /// The number of places at which a spacing is measured.
 const SAMPLES: usize = 2000;
@@ -14,17 +19,29 @@ const PIECE: usize = 4096;
 /// The median distance from a point to its nearest neighbor at another place, in the points' unit; `None` if all points
 /// are at one place.
 pub fn median_spacing(points: &[DVec3]) -> Option<f64> {
-    let index = Neighbors::new(points)?;
-    let two = const { std::num::NonZeroUsize::new(2).expect("it is two") };
+    // Each place once: copies of a point are no neighbors, and a k-d tree is slow on many of them.
+    let mut seen = FxHashSet::default();
+    let places: Vec<[f64; 3]> = points
+        .iter()
+        .map(|&p| (p + 0.0).to_array())
+        .filter(|place| seen.insert(place.map(f64::to_bits)))
+        .collect();
+    if places.len() < 2 {
+        return None;
+    }
+    let tree = ImmutableKdTree::<f64, 3>::new_from_slice(&places).ok()?;
+    let two = const { NonZeroUsize::new(2).expect("it is two") };
     let step = points.len().div_ceil(SAMPLES);
     let mut distances: Vec<f64> = points
         .iter()
         .step_by(step)
-        // Copies of a point are one place, which has others besides.
-        .filter_map(|&p| {
-            let here = index.nearest(p).multiplicity;
-            let near = index.nearest_places(p, two.saturating_add(here - 1));
-            near.get(1).map(|n| n.distance_squared.sqrt())
+        .filter_map(|p| {
+            let query = p.to_array();
+            let near = (tree.query(&query))
+                .nearest_n::<SquaredEuclidean<f64>>(two)
+                .execute();
+            let other = places[near.get(1)?.item as usize];
+            Some(p.distance(DVec3::from_array(other)))
         })
         .collect();
     if distances.is_empty() {

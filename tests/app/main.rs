@@ -9,3 +9,4 @@ mod many_tags;
 mod peduncle;
 mod true_axes;
 mod why;
+mod workers;

@@ -78,7 +78,7 @@ impl Contributions {
     /// Bins of a histogram.
     pub const BINS: usize = 48;
 
-    /// The histogram of every point with a partner; `None` if there is none.
+    /// The histogram over every point with a partner; `None` if there is none.
     pub fn of(detail: &PlaneDetail, tau_cm_per_rad: f64) -> Option<Self> {
         let partners = detail.points.iter().filter_map(|p| p.partner);
         let mut values: Vec<f64> = partners.map(|p| p.score_cm(tau_cm_per_rad)).collect();

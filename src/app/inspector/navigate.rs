@@ -111,7 +111,7 @@ pub(in crate::app) fn framed_camera(state: &State) -> Camera {
     camera
 }
 
-/// Another projection, with what lies at the pivot as large as before.
+/// The camera with another projection, in which things at the pivot are as large as before.
 pub(in crate::app) fn projected(camera: &Camera, projection: Projection) -> Camera {
     let mut camera = *camera;
     let depth = camera.depth_of(camera.pivot_in_world);

@@ -1,4 +1,4 @@
-//! Why a point scores as it does: the paper's steps (Eq. 12–15) for one point under the plane that is
+//! The paper's steps (Eq. 12–15) for one point under the plane that is
 //! looked at, as numbers and as lines in space (Fig. 6).
 
 use glam::DVec3;
@@ -15,15 +15,15 @@ use crate::view::Theme;
 pub struct Why {
     /// Its index among the shown points.
     pub shown_index: usize,
-    /// Where it is, in the file's unit and frame.
+    /// The position, in the file's unit and frame.
     pub position: DVec3,
     /// The file's unit; `None` where the cloud was not analyzed.
     pub unit: Option<Unit>,
-    /// What follows under the plane that is looked at.
+    /// The steps under the plane that is looked at.
     pub steps: Result<Steps, Unexplained>,
 }
 
-/// Why there are no steps.
+/// The reason why there are no steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Unexplained {
     /// The cloud was not analyzed.
@@ -58,7 +58,7 @@ pub struct Steps {
     pub viewpoint: DVec3,
     /// ⟨ñ, p_v − p̈⟩ in centimeters (Eq. 14): positive where a partner would be visible.
     pub visibility_cm: f64,
-    /// What it is compared with; `None` where a partner would not be visible.
+    /// The match; `None` if a partner would not be visible.
     pub partner: Option<Match>,
 }
 
@@ -67,7 +67,7 @@ pub struct Steps {
 pub struct Match {
     /// The neighbor's index in the surface.
     pub surface_index: usize,
-    /// Where it is, in the file's unit and frame.
+    /// The position, in the file's unit and frame.
     pub position: DVec3,
     /// Its unit normal.
     pub normal: DVec3,

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::app::App;
+use super::Many;
+use crate::app::context::Context;
 use crate::app::state::State;
 use crate::evaluate::{Row, Sweep, TruthChoice, WorstPicture, result_files};
 use crate::fruit::Request;
@@ -79,40 +80,35 @@ struct Task {
     into: PathBuf,
 }
 
-impl App {
+impl Many {
     /// Saves the results in a new folder within `into`.
-    pub(super) fn save_results(&mut self, into: PathBuf) {
-        let Some(clouds) = self.state.common_folder() else {
-            self.say(false, "There is no open file to save results of.".into());
+    pub(super) fn save_results(&mut self, into: PathBuf, cx: &mut Context) {
+        let Some(clouds) = cx.state.common_folder() else {
+            cx.say(false, "There is no open file to save results of.");
             return;
         };
-        let Some(rows) = self.state.result_rows(&clouds) else {
-            self.say(
+        let Some(rows) = cx.state.result_rows(&clouds) else {
+            cx.say(
                 false,
-                "Results are saved once all open clouds are evaluated with the parameters in force.".into(),
+                "Results are saved once all open clouds are evaluated with the parameters in force.",
             );
             return;
         };
-        let sweep = &self.state.many.sweep;
+        let sweep = &cx.state.many.sweep;
         let is_whole = !sweep.is_stale && sweep.progress.is_none() && !sweep.ranges.only_current;
         let task = Task {
             clouds,
-            request: self.state.settings.request.clone(),
+            request: cx.state.settings.request.clone(),
             rows,
             sweep: sweep.map.as_deref().filter(|_| is_whole).cloned(),
             into,
         };
-        self.many.results.submit(move |_| save(&task));
+        self.results.submit(move |_| save(&task));
     }
 
-    pub(super) fn update_results(&mut self) {
-        if let Some(result) = self.many.results.take() {
-            let (is_error, text) = match result {
-                Ok(Ok(done)) => (false, done),
-                Ok(Err(problem)) => (true, problem),
-                Err(crash) => (true, crate::text::sentence(&crash.to_string())),
-            };
-            self.say(is_error, text);
+    pub(super) fn update_results(&mut self, cx: &mut Context) {
+        if let Some(result) = self.results.take() {
+            cx.say_result(result);
         }
     }
 }

@@ -1,30 +1,20 @@
 //! Thumbnails of the visible clouds: drawn in the background, and bounded in number.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
+use super::Many;
 use super::background::{BatchContext, YieldingWatch};
-use crate::app::App;
+use super::state::Thumbnail;
+use crate::app::context::Context;
 use crate::app::workers::{JobWatch, Lane, Pool};
 use crate::evaluate::{ThumbnailFile, ThumbnailRenderer, ThumbnailSettings};
 use crate::render::Image;
 
 /// The number of thumbnails that are kept in memory.
 pub const KEPT_PICTURES: usize = 200;
-
-/// The thumbnails by their clouds.
-pub type Thumbnails = HashMap<PathBuf, Thumbnail>;
-
-/// A thumbnail, or the reason why there is none.
-#[derive(Debug, Clone)]
-pub struct Thumbnail {
-    /// The picture, or a sentence that says why it could not be drawn.
-    pub image: Result<Arc<Image>, String>,
-    /// Whether it shows other parameters, another reference or other colors than those in force.
-    pub is_stale: bool,
-}
 
 struct Drawn {
     turn: u64,
@@ -64,51 +54,51 @@ impl ThumbnailQueue {
     }
 }
 
-impl App {
+impl Many {
     /// Takes note of the clouds that are visible.
-    pub(super) fn want_pictures(&mut self, places: &[usize]) {
-        let rows = &self.state.many.rows;
+    pub(super) fn want_pictures(&mut self, places: &[usize], cx: &Context) {
+        let rows = &cx.state.many.rows;
         let path = |&place: &usize| rows.get(place)?.path.clone();
         // More than are kept would evict one another again and again.
         let wanted = places.iter().filter_map(path).take(KEPT_PICTURES);
-        self.many.thumbnails.wanted = wanted.collect();
+        self.thumbnails.wanted = wanted.collect();
     }
 
-    pub(super) fn update_pictures(&mut self) {
-        self.mark_old_pictures();
-        let is_over = self.many.thumbnails.lane.take().is_some();
-        while let Ok(drawn) = self.many.thumbnails.drawn.1.try_recv() {
-            if drawn.turn == self.many.thumbnails.turn {
-                self.keep_picture(drawn);
+    pub(super) fn update_pictures(&mut self, cx: &mut Context) {
+        self.mark_old_pictures(cx);
+        let is_over = self.thumbnails.lane.take().is_some();
+        while let Ok(drawn) = self.thumbnails.drawn.1.try_recv() {
+            if drawn.turn == self.thumbnails.turn {
+                self.keep_picture(drawn, cx);
             }
         }
         if is_over {
-            self.many.thumbnails.requested.clear();
+            self.thumbnails.requested.clear();
         }
-        self.ask_for_pictures();
+        self.ask_for_pictures(cx);
     }
 
-    fn mark_old_pictures(&mut self) {
+    fn mark_old_pictures(&mut self, cx: &mut Context) {
         let settings = ThumbnailSettings {
-            request: self.state.settings.request.clone(),
-            against: self.state.many.against,
-            theme: self.state.style.theme,
+            request: cx.state.settings.request.clone(),
+            against: cx.state.many.against,
+            theme: cx.state.style.theme,
         };
-        if self.many.thumbnails.settings.as_ref() == Some(&settings) {
+        if self.thumbnails.settings.as_ref() == Some(&settings) {
             return;
         }
-        self.many.thumbnails.settings = Some(settings);
-        self.many.thumbnails.lane.cancel();
-        self.many.thumbnails.requested.clear();
-        self.many.thumbnails.turn += 1;
-        for picture in Arc::make_mut(&mut self.state.many.pictures).values_mut() {
+        self.thumbnails.settings = Some(settings);
+        self.thumbnails.lane.cancel();
+        self.thumbnails.requested.clear();
+        self.thumbnails.turn += 1;
+        for picture in Arc::make_mut(&mut cx.state.many.pictures).values_mut() {
             picture.is_stale = true;
         }
     }
 
-    fn keep_picture(&mut self, drawn: Drawn) {
-        let thumbnails = &mut self.many.thumbnails;
-        let pictures = Arc::make_mut(&mut self.state.many.pictures);
+    fn keep_picture(&mut self, drawn: Drawn, cx: &mut Context) {
+        let thumbnails = &mut self.thumbnails;
+        let pictures = Arc::make_mut(&mut cx.state.many.pictures);
         thumbnails.order.retain(|path| *path != drawn.path);
         thumbnails.order.push(drawn.path.clone());
         let picture = Thumbnail {
@@ -126,10 +116,10 @@ impl App {
         }
     }
 
-    fn ask_for_pictures(&mut self) {
-        let pictures = &self.state.many.pictures;
+    fn ask_for_pictures(&mut self, cx: &Context) {
+        let pictures = &cx.state.many.pictures;
         let is_missing = |path: &&PathBuf| pictures.get(*path).is_none_or(|picture| picture.is_stale);
-        let thumbnails = &mut self.many.thumbnails;
+        let thumbnails = &mut self.thumbnails;
         let missing: Vec<PathBuf> = thumbnails.wanted.iter().filter(is_missing).cloned().collect();
         let is_asked = missing.iter().all(|path| thumbnails.requested.contains(path));
         let Some(settings) = thumbnails.settings.clone().filter(|_| !is_asked) else {
@@ -142,7 +132,7 @@ impl App {
             thumbnails.drawn.0.clone(),
             thumbnails.renderer.clone(),
         );
-        let context = self.many.context.clone();
+        let context = self.context.clone();
         thumbnails.lane.submit(move |watch| {
             for path in missing {
                 let Some(image) = picture(&path, &settings, &renderer, &context, watch) else {

@@ -4,17 +4,15 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::{Question, Saved};
+use super::state::Saved;
 use crate::annotate::DiskFiles;
 use crate::annotate::Files as _;
-use crate::app::App;
-use crate::app::inspector::stages::Source;
 use crate::fruit::{Fruit, companion_path};
 use crate::geometry::PointSet;
 use crate::ply::{Precision, WriteError, WriteOptions, write};
 
-/// What came of writing a companion.
-pub(in crate::app) enum Written {
+/// The outcome of writing or comparing a companion.
+pub(in crate::app) enum Outcome {
     /// It is there.
     Done(Saved),
     /// It was there already, from an earlier session; nobody has asked.
@@ -27,92 +25,21 @@ pub(in crate::app) enum Written {
     Failed(String),
 }
 
-impl App {
-    /// Saves the peduncle; `to` beside the cloud where it is not given, and then without replacing
-    /// anything.
-    pub(super) fn save_companion(&mut self, to: Option<PathBuf>) {
-        let (Some(walked), Some(points)) =
-            (self.state.current_walked().cloned(), self.state.peduncle_points())
-        else {
-            self.say(
-                false,
-                "There is no analyzed cloud whose peduncle could be saved.".into(),
-            );
-            return;
-        };
-        if points.is_empty() {
-            self.say(
-                false,
-                "No point of this cloud belongs to a peduncle yet: there is nothing to save.".into(),
-            );
-            return;
-        }
-        if to.is_none() && matches!(self.state.source(), Some(Source::Bundled(_))) {
-            self.say(
-                false,
-                "A sample has no folder of its own: save its peduncle under a name of yours.".into(),
-            );
-            return;
-        }
-        let replaces = to.is_some();
-        let path = to.unwrap_or_else(|| companion_path(&walked.fruit.file.path));
-        self.peduncle
-            .companions
-            .submit(move |_| written(&walked.fruit, points, path, replaces));
+/// Compares the companion that lies beside a cloud with the points that an earlier session picked.
+pub(super) fn compared(fruit: &Fruit, points: Arc<PointSet>) -> Outcome {
+    let path = companion_path(&fruit.file.path);
+    let there = std::fs::read(&path);
+    if !there.is_ok_and(|there| companion_bytes(fruit, &points).is_ok_and(|b| b == there)) {
+        return Outcome::Unknown;
     }
+    Outcome::Known(saved(path, fruit, points))
+}
 
-    /// What an earlier session picked may lie in the companion already.
-    fn compare_companion(&mut self) {
-        let (Some(walked), Some(points)) = (self.state.current_walked(), self.state.picked_peduncle()) else {
-            return;
-        };
-        let sha256 = &walked.fruit.file.sha256;
-        if self.peduncle.companions.is_busy() || self.peduncle.compared.contains(sha256) {
-            return;
-        }
-        let (walked, points) = (walked.clone(), points.clone());
-        self.peduncle.compared.insert(sha256.clone());
-        self.peduncle.companions.submit(move |_| {
-            let fruit = &walked.fruit;
-            let path = companion_path(&fruit.file.path);
-            let there = std::fs::read(&path);
-            if !there.is_ok_and(|there| companion_bytes(fruit, &points).is_ok_and(|b| b == there)) {
-                return Written::Unknown;
-            }
-            Written::Known(Saved {
-                path,
-                sha256: fruit.file.sha256.clone(),
-                points,
-            })
-        });
-    }
-
-    fn know(&mut self, saved: Saved) {
-        self.state.peduncle.saved.retain(|known| known.path != saved.path);
-        self.state.peduncle.saved.push(saved);
-    }
-
-    pub(in crate::app) fn update_companions(&mut self) {
-        self.compare_companion();
-        let Some(result) = self.peduncle.companions.take() else {
-            return;
-        };
-        match result {
-            Ok(Written::Done(saved)) => {
-                let text = format!(
-                    "Saved {} points of the peduncle as {}.",
-                    saved.points.len(),
-                    saved.path.display()
-                );
-                self.know(saved);
-                self.say(false, text);
-            }
-            Ok(Written::Known(saved)) => self.know(saved),
-            Ok(Written::Unknown) => {}
-            Ok(Written::Exists(path)) => self.state.peduncle.question = Some(Question::Replace(path)),
-            Ok(Written::Failed(problem)) => self.say(true, problem),
-            Err(crash) => self.say(true, format!("Saving the peduncle broke off by {crash}.")),
-        }
+fn saved(path: PathBuf, fruit: &Fruit, points: Arc<PointSet>) -> Saved {
+    Saved {
+        path,
+        sha256: fruit.file.sha256.clone(),
+        points,
     }
 }
 
@@ -133,7 +60,8 @@ fn companion_bytes(fruit: &Fruit, points: &PointSet) -> Result<Vec<u8>, WriteErr
     Ok(bytes)
 }
 
-fn written(fruit: &Fruit, points: Arc<PointSet>, path: PathBuf, replaces: bool) -> Written {
+/// Writes the companion to `path`. What is there already stays, unless it may be replaced.
+pub(super) fn written(fruit: &Fruit, points: Arc<PointSet>, path: PathBuf, replaces: bool) -> Outcome {
     let made = companion_bytes(fruit, &points).map_err(|error| error.to_string());
     let done = if replaces || !path.exists() {
         made.and_then(|bytes| {
@@ -144,15 +72,11 @@ fn written(fruit: &Fruit, points: Arc<PointSet>, path: PathBuf, replaces: bool) 
         // Saved before: there is nothing to replace.
         Ok(())
     } else {
-        return Written::Exists(path);
+        return Outcome::Exists(path);
     };
     match done {
-        Ok(()) => Written::Done(Saved {
-            path,
-            sha256: fruit.file.sha256.clone(),
-            points,
-        }),
-        Err(why) => Written::Failed(format!(
+        Ok(()) => Outcome::Done(saved(path, fruit, points)),
+        Err(why) => Outcome::Failed(format!(
             "{}: the peduncle was not saved ({why}). What was picked is still here; save it elsewhere.",
             path.display()
         )),

@@ -2,42 +2,24 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::Stroke;
-use crate::app::App;
-use crate::app::PATIENCE;
+use super::state::{Marked, Stroke};
 use crate::app::inspector::look::{Look, next_generation};
-use crate::app::state::Tool;
+use crate::app::state::State;
+use crate::app::tool::Tool;
 use crate::fruit::{Fruit, PeduncleChoice};
 use crate::geometry::{Cloud, PointSet};
 use crate::peduncle::{HueRange, hue_deg};
 use crate::render::{Camera, Color, Scene, Viewport};
-use crate::view::{Brush, Lasso, PEDUNCLE_MARK, Region, Screen, Theme, faded};
+use crate::view::{Brush, Lasso, PEDUNCLE_MARK, Region, Screen, faded};
 
-/// A view with the peduncle highlighted.
-#[derive(Debug, Clone)]
-pub struct Marked {
-    /// What is drawn.
-    pub scene: Arc<Scene>,
-    /// How many of the cloud's points are highlighted.
-    pub points: usize,
-    /// What it was made from.
-    of: Arc<Scene>,
-}
-
-impl Marked {
-    /// Whether it is the same view as a look.
-    pub fn is_of(&self, look: &Look) -> bool {
-        Arc::ptr_eq(&self.of, &look.scene)
-    }
-}
-
-/// What comes of a job: the highlight, and what the stroke has selected.
+/// The result of a job: the highlight, and the stroke's selection.
 pub(in crate::app) struct Marking {
-    marked: Marked,
-    stroke: Option<(u64, bool, Arc<PointSet>)>,
+    pub(super) marked: Marked,
+    /// The number of the stroke that has ended, and the points that are selected after it.
+    pub(super) stroke: Option<(u64, Arc<PointSet>)>,
 }
 
-/// What a highlight is made from.
+/// The input of a highlight.
 #[derive(Debug, Clone)]
 pub(in crate::app) struct Wanted {
     look: Arc<Look>,
@@ -52,7 +34,7 @@ enum What {
     Hue(HueRange),
     /// Those that the analysis found.
     Found(Arc<Fruit>),
-    /// What a stroke makes of what was selected before.
+    /// The selection before a stroke, changed by it.
     Stroke {
         stroke: Stroke,
         radius_px: f64,
@@ -114,62 +96,9 @@ impl Screens {
     }
 }
 
-impl App {
-    /// Takes and asks for highlights. A stroke that has ended goes into the settings.
-    pub(in crate::app) fn update_marks(&mut self) {
-        self.take_marks();
-        let Some(wanted) = self.wanted_marks() else {
-            self.state.peduncle.marked = None;
-            self.peduncle.asked_marks = None;
-            return;
-        };
-        // One after the other, so that a quick hand sees what it does; the last one always comes.
-        if self.peduncle.asked_marks.as_ref() == Some(&wanted) || self.peduncle.marks.is_busy() {
-            return;
-        }
-        let Some(fruit) = self.state.current_walked().map(|walked| walked.fruit.clone()) else {
-            return;
-        };
-        let base = match wanted.what {
-            What::Stroke { .. } => self.state.peduncle_points().unwrap_or_default(),
-            _ => Arc::default(),
-        };
-        let (screens, is_dark) = (
-            self.peduncle.screens.clone(),
-            self.state.style.theme == Theme::Dark,
-        );
-        let pixels_per_point = f64::from(self.state.pixels_per_point);
-        self.peduncle.asked_marks = Some(wanted.clone());
-        self.peduncle
-            .marks
-            .submit(move |_| mark(&wanted, &fruit, &base, &screens, is_dark, pixels_per_point));
-        self.take_marks();
-    }
-
-    fn take_marks(&mut self) {
-        let Some(result) = self.peduncle.marks.take_within(PATIENCE) else {
-            return;
-        };
-        match result {
-            Ok(marking) => {
-                self.state.peduncle.marked = Some(Arc::new(marking.marked));
-                if let Some((id, true, selected)) = marking.stroke {
-                    let front = self.state.peduncle.strokes.front();
-                    if front.is_some_and(|stroke| stroke.id == id && stroke.is_ended) {
-                        self.state.peduncle.strokes.pop_front();
-                        self.pick_peduncle(selected);
-                    }
-                }
-            }
-            Err(crash) => {
-                self.state.peduncle.strokes.clear();
-                self.say(true, format!("The selection broke off by {crash}."));
-            }
-        }
-    }
-
-    fn wanted_marks(&self) -> Option<Wanted> {
-        let state = &self.state;
+impl Wanted {
+    /// The highlight of the state as it is; `None` where there is none to show.
+    pub(super) fn of(state: &State) -> Option<Self> {
         let picking = &state.peduncle;
         if !(state.is_picking() || picking.is_previewed || !picking.strokes.is_empty()) {
             return None;
@@ -192,11 +121,17 @@ impl App {
         } else {
             What::Found(fruit.clone())
         };
-        Some(Wanted { look, what })
+        Some(Self { look, what })
+    }
+
+    /// Whether a stroke under way changes what was selected before.
+    pub(super) fn is_stroke(&self) -> bool {
+        matches!(self.what, What::Stroke { .. })
     }
 }
 
-fn mark(
+/// Highlights what is wanted of a cloud; `base` is what was selected before the stroke.
+pub(super) fn mark(
     wanted: &Wanted,
     fruit: &Fruit,
     base: &PointSet,
@@ -244,7 +179,7 @@ fn mark(
         };
         screen.mark(&region, stroke.removes, *is_through, &mut mask);
         if stroke.is_ended {
-            stroked = Some((stroke.id, true, Arc::new(PointSet::of_mask(&mask))));
+            stroked = Some((stroke.id, Arc::new(PointSet::of_mask(&mask))));
         }
     }
     let points = mask.iter().filter(|is_in| **is_in).count();

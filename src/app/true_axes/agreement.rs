@@ -9,12 +9,12 @@ use crate::annotate::{DiskFiles, read_annotations};
 use crate::fruit::read_cloud;
 use crate::parallel::{Cancelled, Watch};
 
-/// How far annotators agree over the open clouds.
+/// The agreement of annotators over the open clouds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SetReport {
     /// The agreement.
     pub agreement: SetAgreement,
-    /// What could not be used, a sentence each.
+    /// The files that could not be used, a sentence each.
     pub warnings: Vec<String>,
 }
 

@@ -1,46 +1,53 @@
-//! What commands about axes set by hand do to the state.
+//! The commands about axes set by hand.
 
 use glam::DVec3;
 
-use super::desk::Deed;
-use super::{Decision, Draft, Ghost, Grab, Handle, Saving, TrueAxesCommand, Turn};
-use crate::annotate::{Annotation, Ends, EndsError, Finding, Judgment, Method, Role, mean_axis};
-use crate::app::App;
+use super::TrueAxes;
+use super::commands::{Decision, TrueAxesCommand, Turn};
+use super::handles::Handle;
+use super::state::{Draft, Grab, Saving};
+use super::stores::Change;
+use crate::annotate::{Annotation, Ends, Finding, Judgment, Method, Role, mean_axis};
+use crate::app::command::Command;
+use crate::app::context::Context;
+use crate::app::inspector::stages::Source;
+use crate::app::tool::Tool;
 use crate::evaluate::start_axis;
 use crate::render::Projection;
 use crate::text::sentence;
 
-impl App {
-    pub(in crate::app) fn annotate(&mut self, command: TrueAxesCommand) {
-        let annotating = &mut self.state.true_axes;
+impl TrueAxes {
+    /// Does what is asked about axes set by hand.
+    pub(in crate::app) fn apply(&mut self, command: TrueAxesCommand, cx: &mut Context) {
+        let axes = &mut cx.state.true_axes;
         match command {
-            TrueAxesCommand::Edit(on) => self.edit_mode(on),
+            TrueAxesCommand::Edit(on) => edit_mode(cx, on),
             TrueAxesCommand::Name(name) => {
-                name.trim().clone_into(&mut annotating.name);
-                if annotating.asks_name && annotating.author().is_ok() {
-                    annotating.asks_name = false;
-                    annotating.is_editing = true;
-                } else if annotating.author().is_err() {
-                    annotating.is_editing = false;
+                name.trim().clone_into(&mut axes.name);
+                if axes.asks_name && axes.author().is_ok() {
+                    axes.asks_name = false;
+                    axes.is_editing = true;
+                } else if axes.author().is_err() {
+                    axes.is_editing = false;
                 }
             }
-            TrueAxesCommand::WithoutName => annotating.asks_name = false,
-            TrueAxesCommand::Role(role) => annotating.role = role,
-            TrueAxesCommand::Blind(on) => self.blind(on),
-            TrueAxesCommand::ShowAll(on) => annotating.shows_all = on && !annotating.is_blind,
+            TrueAxesCommand::WithoutName => axes.asks_name = false,
+            TrueAxesCommand::Role(role) => axes.role = role,
+            TrueAxesCommand::Blind(on) => blind(cx, on),
+            TrueAxesCommand::ShowAll(on) => axes.shows_all = on && !axes.is_blind,
 
-            TrueAxesCommand::Hover(landing) => annotating.landing = landing,
-            TrueAxesCommand::Place(place) => self.place(place),
+            TrueAxesCommand::Hover(landing) => axes.landing = landing,
+            TrueAxesCommand::Place(place) => self.place(cx, place),
             TrueAxesCommand::Anew => {
-                if annotating.can_edit() {
-                    annotating.draft = Draft::Anew;
-                    (annotating.grabbed, annotating.moving) = (None, None);
+                if axes.can_edit() {
+                    axes.drop_draft();
+                    axes.draft = Draft::Anew;
                 }
             }
-            TrueAxesCommand::Escape => self.escape(),
+            TrueAxesCommand::Escape => escape(cx),
             TrueAxesCommand::Grab { handle, view, at_px } => {
-                if let Some(ends) = annotating.ends().filter(|_| annotating.can_edit()) {
-                    annotating.grabbed = Some(Grab {
+                if let Some(ends) = axes.ends().filter(|_| axes.can_edit()) {
+                    axes.grabbed = Some(Grab {
                         handle,
                         view,
                         place: handle.place(&ends),
@@ -48,140 +55,72 @@ impl App {
                     });
                 }
             }
-            TrueAxesCommand::Drag(place) => self.drag(place),
+            TrueAxesCommand::Drag(place) => drag(cx, place),
             TrueAxesCommand::Drop => {
-                annotating.grabbed = None;
-                if let Some(ends) = annotating.moving.take() {
-                    self.set_ends(ends);
+                axes.grabbed = None;
+                if let Some(ends) = axes.moving.take() {
+                    self.set_ends(cx, ends);
                 }
             }
             TrueAxesCommand::Preview(ends) => {
-                annotating.moving = Some(ends).filter(|_| annotating.can_edit());
+                axes.moving = Some(ends).filter(|_| axes.can_edit());
             }
             TrueAxesCommand::SetEnds(ends) => {
-                annotating.moving = None;
-                self.set_ends(ends);
+                axes.moving = None;
+                self.set_ends(cx, ends);
             }
-            TrueAxesCommand::Nudge(turn, degrees) => self.nudge(turn, degrees),
-            TrueAxesCommand::Step(step) => annotating.step = step,
-            TrueAxesCommand::Hold(pivot) => annotating.pivot = pivot,
+            TrueAxesCommand::Nudge(turn, degrees) => self.nudge(cx, turn, degrees),
+            TrueAxesCommand::Step(step) => axes.step = step,
+            TrueAxesCommand::Hold(pivot) => axes.pivot = pivot,
             TrueAxesCommand::Flip => {
-                if let Some(ends) = annotating.set_ends() {
-                    self.set_ends(ends.flipped());
+                if let Some(ends) = axes.set_ends() {
+                    self.set_ends(cx, ends.flipped());
                 }
             }
-            TrueAxesCommand::Start(method) => self.start(method),
-            TrueAxesCommand::Ghost(ghost) => annotating.ghost = ghost,
+            TrueAxesCommand::Start(method) => self.start(cx, method),
+            TrueAxesCommand::Ghost(ghost) => axes.ghost = ghost,
             TrueAxesCommand::Confidence(confidence) => {
-                self.change(|judgment| judgment.confidence = confidence);
+                self.change(cx, |judgment| judgment.confidence = confidence);
             }
-            TrueAxesCommand::Note(note) => self.change(|judgment| judgment.note = note),
+            TrueAxesCommand::Note(note) => self.change(cx, |judgment| judgment.note = note),
             TrueAxesCommand::CannotTell => {
-                let (confidence, note) = self.carried();
-                self.edit(Judgment {
-                    confidence,
-                    note,
-                    ..Judgment::cannot_tell()
-                });
+                let judgment = with_remarks(cx, Judgment::cannot_tell());
+                self.edit(cx, judgment);
             }
-            TrueAxesCommand::Undo => self.undo_or_redo(Deed::Undo),
-            TrueAxesCommand::Redo => self.undo_or_redo(Deed::Redo),
-            TrueAxesCommand::TryAgain => self.try_again(),
+            TrueAxesCommand::Undo => self.undo_or_redo(cx, Change::Undo),
+            TrueAxesCommand::Redo => self.undo_or_redo(cx, Change::Redo),
+            TrueAxesCommand::TryAgain => self.try_again(cx),
 
-            TrueAxesCommand::NextWithout => self.next_without(),
-            TrueAxesCommand::CompareSet => self.compare_set(),
-            TrueAxesCommand::CancelSet => self.cancel_set(),
-            TrueAxesCommand::Decide(decision) => self.decide(&decision),
-            TrueAxesCommand::CompareWith(source) => annotating.compared = Some(source),
+            TrueAxesCommand::NextWithout => next_without(cx),
+            TrueAxesCommand::CompareSet => self.compare_set(cx),
+            TrueAxesCommand::CancelSet => self.cancel_set(cx),
+            TrueAxesCommand::Decide(decision) => self.decide(cx, &decision),
+            TrueAxesCommand::CompareWith(source) => axes.compared = Some(source),
         }
     }
 
-    fn edit_mode(&mut self, on: bool) {
-        let is_sample = matches!(self.state.source(), Some(crate::app::Source::Bundled(_)));
-        let annotating = &mut self.state.true_axes;
-        (annotating.draft, annotating.landing) = (Draft::None, None);
-        (annotating.grabbed, annotating.moving) = (None, None);
-        if !on {
-            annotating.is_editing = false;
-            annotating.role = Role::Annotator;
-        } else if is_sample {
-            self.say(
-                false,
-                "A sample lies in no folder in which its axis could be kept: open a cloud from a file."
-                    .into(),
-            );
-        } else if annotating.author().is_err() {
-            annotating.asks_name = true;
-        } else {
-            annotating.is_editing = true;
-            self.state.tool = crate::app::Tool::Navigate;
-            self.state.pointed_at = None;
-            self.state.is_playing = false;
-        }
-    }
-
-    fn blind(&mut self, on: bool) {
-        self.state.true_axes.is_blind = on;
-        if on {
-            self.state.true_axes.shows_all = false;
-            self.state.true_axes.compared = None;
-            self.state.is_playing = false;
-            self.state.previewed = None;
-            self.state.tool = crate::app::Tool::Navigate;
-        }
-    }
-
-    fn place(&mut self, place: DVec3) {
-        let annotating = &mut self.state.true_axes;
-        match (annotating.next_end(), annotating.draft) {
+    fn place(&mut self, cx: &mut Context, place: DVec3) {
+        let axes = &mut cx.state.true_axes;
+        match (axes.next_end(), axes.draft) {
             (Some(Handle::BlossomEnd), Draft::Base(base)) => match Ends::new(base, place) {
                 Ok(ends) => {
-                    annotating.draft = Draft::None;
-                    annotating.landing = None;
-                    let (confidence, note) = self.carried();
-                    self.edit(Judgment {
-                        confidence,
-                        note,
-                        ..Judgment::by_hand(ends)
-                    });
+                    axes.draft = Draft::None;
+                    axes.landing = None;
+                    let judgment = with_remarks(cx, Judgment::by_hand(ends));
+                    self.edit(cx, judgment);
                 }
-                Err(error) => self.refuse(error),
+                Err(error) => cx.say(false, sentence(&error.to_string())),
             },
-            (Some(_), _) => annotating.draft = Draft::Base(place),
+            (Some(_), _) => axes.draft = Draft::Base(place),
             (None, _) => {}
         }
     }
 
-    fn escape(&mut self) {
-        let annotating = &mut self.state.true_axes;
-        if annotating.grabbed.is_some() || annotating.moving.is_some() {
-            (annotating.grabbed, annotating.moving) = (None, None);
-        } else if annotating.draft != Draft::None {
-            annotating.draft = Draft::None;
-        } else {
-            self.edit_mode(false);
-        }
-    }
-
-    fn drag(&mut self, place: DVec3) {
-        let annotating = &mut self.state.true_axes;
-        let (Some(grab), Some(ends)) = (annotating.grabbed, annotating.set_ends()) else {
+    fn nudge(&mut self, cx: &mut Context, turn: Turn, degrees: f64) {
+        let Some(ends) = cx.state.true_axes.set_ends() else {
             return;
         };
-        let moved = match grab.handle {
-            Handle::PeduncleBase => ends.with_peduncle_base(place),
-            Handle::BlossomEnd => ends.with_blossom_end(place),
-            Handle::Middle => ends.shifted(place - grab.place),
-        };
-        // Where the ends meet, the axis stays as it was.
-        annotating.moving = moved.ok().or(annotating.moving);
-    }
-
-    fn nudge(&mut self, turn: Turn, degrees: f64) {
-        let Some(ends) = self.state.true_axes.set_ends() else {
-            return;
-        };
-        let camera = &self.state.camera;
+        let camera = &cx.state.camera;
         let view_ray = match camera.projection {
             Projection::Perspective => ends.middle() - camera.eye_in_world,
             Projection::Orthographic => camera.forward_in_world(),
@@ -191,115 +130,87 @@ impl App {
             Turn::Lean => lean,
             Turn::Picture => picture,
         };
-        match ends.turned(about, degrees, self.state.true_axes.pivot) {
-            Ok(turned) => self.set_ends(turned),
-            Err(error) => self.refuse(error),
+        match ends.turned(about, degrees, cx.state.true_axes.pivot) {
+            Ok(turned) => self.set_ends(cx, turned),
+            Err(error) => cx.say(false, sentence(&error.to_string())),
         }
     }
 
-    fn start(&mut self, method: Method) {
-        if self.state.true_axes.is_blind || !self.state.true_axes.can_edit() || self.state.is_stale {
+    fn start(&mut self, cx: &mut Context, method: Method) {
+        if cx.state.true_axes.is_blind || !cx.state.true_axes.can_edit() || cx.state.is_stale {
             return;
         }
-        let Some(walked) = self.state.walked.clone() else {
-            self.say(
+        let Some(walked) = cx.state.walked.clone() else {
+            cx.say(
                 false,
-                "There is nothing to start from yet: the cloud is not analyzed.".into(),
+                "There is nothing to start from yet: the cloud is not analyzed.",
             );
             return;
         };
-        match start_axis(&walked.fruit, &walked.analysis, &self.state.references, method) {
+        match start_axis(&walked.fruit, &walked.analysis, &cx.state.references, method) {
             Ok(ends) => {
-                self.state.true_axes.draft = Draft::None;
-                let (confidence, note) = self.carried();
-                self.edit(Judgment {
-                    method,
-                    confidence,
-                    note,
-                    ..Judgment::by_hand(ends)
-                });
+                cx.state.true_axes.draft = Draft::None;
+                let judgment = with_remarks(cx, Judgment::by_hand(ends));
+                self.edit(cx, Judgment { method, ..judgment });
             }
-            Err(error) => self.say(false, sentence(&error.to_string())),
+            Err(error) => cx.say(false, sentence(&error.to_string())),
         }
     }
 
-    fn refuse(&mut self, error: EndsError) {
-        self.say(false, sentence(&error.to_string()));
-    }
-
-    /// The confidence and the note that stay when the axis changes.
-    fn carried(&self) -> (Option<crate::annotate::Confidence>, String) {
-        let before = self.state.true_axes.judgment();
-        before.map_or((None, String::new()), |before| {
-            (before.confidence, before.note.clone())
-        })
-    }
-
-    /// Another axis, begun where the last one was.
-    fn set_ends(&mut self, ends: Ends) {
-        let before = self.state.true_axes.judgment().cloned();
+    /// Sets another axis, with the method and the remarks of the last one.
+    fn set_ends(&mut self, cx: &mut Context, ends: Ends) {
+        let before = cx.state.true_axes.judgment().cloned();
         let before = before.unwrap_or_else(|| Judgment::by_hand(ends));
-        self.edit(Judgment {
-            finding: Finding::Axis(ends),
-            ..before
-        });
+        self.edit(
+            cx,
+            Judgment {
+                finding: Finding::Axis(ends),
+                ..before
+            },
+        );
     }
 
-    fn change(&mut self, change: impl FnOnce(&mut Judgment)) {
-        if let Some(mut judgment) = self.state.true_axes.judgment().cloned() {
+    fn change(&mut self, cx: &mut Context, change: impl FnOnce(&mut Judgment)) {
+        if let Some(mut judgment) = cx.state.true_axes.judgment().cloned() {
             change(&mut judgment);
-            self.edit(judgment);
+            self.edit(cx, judgment);
         }
     }
 
-    fn edit(&mut self, mut judgment: Judgment) {
-        let annotating = &self.state.true_axes;
-        if !annotating.can_edit() {
+    fn edit(&mut self, cx: &mut Context, mut judgment: Judgment) {
+        let axes = &cx.state.true_axes;
+        if !axes.can_edit() {
             return;
         }
-        judgment.blind = annotating.is_blind && !annotating.was_seen && judgment.method == Method::ByHand;
+        judgment.blind = axes.is_blind && !axes.was_seen && judgment.method == Method::ByHand;
         let same = |before: &Judgment| {
             Judgment {
                 blind: judgment.blind,
                 ..before.clone()
             } == judgment
         };
-        if annotating.judgment().is_some_and(same) {
+        if axes.judgment().is_some_and(same) {
             return;
         }
-        self.act_on_axis(Deed::Edit(Box::new(judgment)));
+        self.act_on_axis(cx, Change::Edit(Box::new(judgment)));
     }
 
-    fn undo_or_redo(&mut self, deed: Deed) {
-        let annotating = &mut self.state.true_axes;
-        (annotating.draft, annotating.moving, annotating.grabbed) = (Draft::None, None, None);
-        let steps = match deed {
-            Deed::Undo => annotating.history.undo_steps(),
-            _ => annotating.history.redo_steps(),
+    fn undo_or_redo(&mut self, cx: &mut Context, change: Change) {
+        let axes = &mut cx.state.true_axes;
+        axes.drop_draft();
+        let steps = match change {
+            Change::Undo => axes.history.undo_steps(),
+            _ => axes.history.redo_steps(),
         };
-        if annotating.can_edit() && steps > 0 {
-            self.act_on_axis(deed);
-        }
-    }
-
-    fn next_without(&mut self) {
-        let (mine, Some(current)) = (self.state.true_axes.mine.clone(), self.state.current) else {
-            return;
-        };
-        let count = mine.len();
-        let next = (1..count)
-            .map(|by| (current + by) % count)
-            .find(|&place| !mine[place]);
-        match next {
-            Some(place) => self.apply(crate::app::Command::Show(place)),
-            None => self.say(false, "Every other open cloud has an axis of yours.".into()),
+        if axes.can_edit() && steps > 0 {
+            self.act_on_axis(cx, change);
         }
     }
 
     /// Turns to the adjudicated axis and sets it.
-    fn decide(&mut self, decision: &Decision) {
+    fn decide(&mut self, cx: &mut Context, decision: &Decision) {
         let of_annotators = |a: &&Annotation| a.role == Role::Annotator;
-        let annotations = &self.state.true_axes.annotations;
+        let annotations = &cx.state.true_axes.annotations;
         let theirs: Vec<&Annotation> = annotations.iter().filter(of_annotators).collect();
         let judgment = match decision {
             Decision::ByHand => None,
@@ -313,29 +224,116 @@ impl App {
             }
             Decision::Mean => {
                 let Some(mean) = mean_of(&theirs) else {
-                    self.say(
+                    cx.say(
                         false,
-                        "The annotators' axes have no mean: they contradict one another.".into(),
+                        "The annotators' axes have no mean: they contradict one another.",
                     );
                     return;
                 };
                 Some(mean)
             }
         };
-        let annotating = &mut self.state.true_axes;
-        if annotating.is_blind {
+        let axes = &mut cx.state.true_axes;
+        if axes.is_blind {
             return;
         }
-        annotating.role = Role::Adjudicator;
-        self.edit_mode(true);
-        if !self.state.true_axes.is_editing {
+        axes.role = Role::Adjudicator;
+        edit_mode(cx, true);
+        if !cx.state.true_axes.is_editing {
             return;
         }
-        self.update_annotating();
+        self.update(cx);
         let Some(judgment) = judgment else { return };
         // The files may still be opening: edits wait behind that.
-        self.state.true_axes.saving = Saving::Saving;
-        self.edit(judgment);
+        if cx.state.true_axes.saving == Saving::Opening {
+            cx.state.true_axes.saving = Saving::Saving;
+        }
+        self.edit(cx, judgment);
+    }
+}
+
+fn edit_mode(cx: &mut Context, on: bool) {
+    let is_sample = matches!(cx.state.source(), Some(Source::Bundled(_)));
+    let axes = &mut cx.state.true_axes;
+    axes.drop_draft();
+    axes.landing = None;
+    if !on {
+        axes.is_editing = false;
+        axes.role = Role::Annotator;
+    } else if is_sample {
+        cx.say(
+            false,
+            "A sample lies in no folder in which its axis could be kept: open a cloud from a file.",
+        );
+    } else if axes.author().is_err() {
+        axes.asks_name = true;
+    } else {
+        axes.is_editing = true;
+        cx.state.tool = Tool::Navigate;
+        cx.state.pointed_at = None;
+        cx.state.is_playing = false;
+    }
+}
+
+fn blind(cx: &mut Context, on: bool) {
+    cx.state.true_axes.is_blind = on;
+    if on {
+        cx.state.true_axes.shows_all = false;
+        cx.state.true_axes.compared = None;
+        cx.state.is_playing = false;
+        cx.state.previewed = None;
+        cx.state.tool = Tool::Navigate;
+    }
+}
+
+fn escape(cx: &mut Context) {
+    let axes = &mut cx.state.true_axes;
+    if axes.grabbed.is_some() || axes.moving.is_some() {
+        axes.let_go();
+    } else if axes.draft != Draft::None {
+        axes.draft = Draft::None;
+    } else {
+        edit_mode(cx, false);
+    }
+}
+
+fn drag(cx: &mut Context, place: DVec3) {
+    let axes = &mut cx.state.true_axes;
+    let (Some(grab), Some(ends)) = (axes.grabbed, axes.set_ends()) else {
+        return;
+    };
+    let moved = match grab.handle {
+        Handle::PeduncleBase => ends.with_peduncle_base(place),
+        Handle::BlossomEnd => ends.with_blossom_end(place),
+        Handle::Middle => ends.shifted(place - grab.place),
+    };
+    // Where the ends meet, the axis stays as it was.
+    axes.moving = moved.ok().or(axes.moving);
+}
+
+/// A judgment with the confidence and the note of the one before, which stay when the axis changes.
+fn with_remarks(cx: &Context, judgment: Judgment) -> Judgment {
+    match cx.state.true_axes.judgment() {
+        Some(before) => Judgment {
+            confidence: before.confidence,
+            note: before.note.clone(),
+            ..judgment
+        },
+        None => judgment,
+    }
+}
+
+fn next_without(cx: &mut Context) {
+    let (mine, Some(current)) = (cx.state.true_axes.mine.clone(), cx.state.current) else {
+        return;
+    };
+    let count = mine.len();
+    let next = (1..count)
+        .map(|by| (current + by) % count)
+        .find(|&place| !mine[place]);
+    match next {
+        Some(place) => cx.ask(Command::Show(place)),
+        None => cx.say(false, "Every other open cloud has an axis of yours."),
     }
 }
 
@@ -362,16 +360,4 @@ fn mean_of(annotations: &[&Annotation]) -> Option<Judgment> {
         note: format!("mean of {} annotators", axes.len()),
         ..Judgment::by_hand(ends)
     })
-}
-
-impl Ghost {
-    /// The next one, for a key that goes through them.
-    #[must_use]
-    pub fn next(self) -> Self {
-        match self {
-            Self::Off => Self::Turned,
-            Self::Turned => Self::Mirrored,
-            Self::Mirrored => Self::Off,
-        }
-    }
 }

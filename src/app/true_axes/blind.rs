@@ -1,9 +1,10 @@
 //! Blind mode: nothing computed is shown, so that it cannot draw the annotator's hand.
 
-use crate::app::State;
-use crate::app::state::Command;
-use crate::view::Style;
-use crate::view::{Coloring, Overlay, ViewPreset};
+use super::commands::TrueAxesCommand::{ShowAll, Start};
+use crate::app::command::Command;
+use crate::app::state::State;
+use crate::app::tool::Tool;
+use crate::view::{Coloring, Overlay, Style, ViewPreset};
 
 /// Overlays that show, or give away, what was computed.
 const COMPUTED: [Overlay; 9] = [
@@ -19,7 +20,7 @@ const COMPUTED: [Overlay; 9] = [
 ];
 
 impl State {
-    /// How the cloud is drawn: as chosen, but for what blind mode hides.
+    /// The style in which the cloud is drawn: as chosen, but for what blind mode hides.
     pub fn shown_style(&self) -> Style {
         let mut style = self.style.clone();
         if self.true_axes.is_blind {
@@ -51,7 +52,6 @@ impl State {
 impl Command {
     /// Whether it shows what was computed, or is about that alone.
     pub fn reveals(&self) -> bool {
-        use crate::app::TrueAxesCommand::{ShowAll, Start};
         matches!(
             self,
             Self::LookAt(_)
@@ -60,7 +60,7 @@ impl Command {
                 | Self::Preview(Some(_))
                 | Self::Play(true)
                 | Self::MoveCenter(_)
-                | Self::Use(crate::app::Tool::MoveCenter)
+                | Self::Use(Tool::MoveCenter)
                 | Self::View(ViewPreset::Normal | ViewPreset::Axis)
                 | Self::TrueAxes(Start(_) | ShowAll(true))
         )

@@ -1,12 +1,13 @@
-//! What can be asked about axes set by hand.
+//! The commands about axes set by hand.
 
 use glam::{DVec2, DVec3};
 
-use super::{EditView, Ghost, Handle};
+use super::handles::{EditView, Handle};
+use super::state::Ghost;
 use crate::annotate::{Confidence, Ends, Method, Pivot, Role};
 use crate::method::AxisSource;
 
-/// How an axis is turned, as seen in the large view.
+/// A direction in which an axis is turned, as seen in the large view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turn {
     /// Within the picture, clockwise.
@@ -15,12 +16,12 @@ pub enum Turn {
     Lean,
 }
 
-/// Which axis is the adjudicated one.
+/// The source of the adjudicated axis.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Decision {
     /// The mean of the annotators' axes.
     Mean,
-    /// An annotator's.
+    /// The axis of the annotator with this name.
     Of(String),
     /// One that is set by hand.
     ByHand,
@@ -42,7 +43,7 @@ pub enum TrueAxesCommand {
     /// Draw everybody's axes, or only one's own.
     ShowAll(bool),
 
-    /// Where a click would land.
+    /// The point at which a click would land.
     Hover(Option<DVec3>),
     /// Set the next end.
     Place(DVec3),
@@ -52,11 +53,11 @@ pub enum TrueAxesCommand {
     Escape,
     /// Take hold of a handle.
     Grab {
-        /// Which.
+        /// The handle.
         handle: Handle,
-        /// In which view.
+        /// The view in which it is held.
         view: EditView,
-        /// Where the cursor is, in the view's pixels.
+        /// The cursor's position, in the view's pixels.
         at_px: DVec2,
     },
     /// Move what is held.
@@ -71,17 +72,17 @@ pub enum TrueAxesCommand {
     Nudge(Turn, f64),
     /// The step of the buttons that turn, as an index.
     Step(usize),
-    /// What stays where it is when the axis is turned.
+    /// The point of the axis that stays when it is turned.
     Hold(Pivot),
     /// Exchange the ends.
     Flip,
     /// Start from an axis that is known.
     Start(Method),
-    /// What checks the axis.
+    /// The ghost that checks the axis.
     Ghost(Ghost),
-    /// How sure the annotator is.
+    /// The annotator's confidence.
     Confidence(Option<Confidence>),
-    /// Anything else, in words.
+    /// The annotator's note.
     Note(String),
     /// The cloud does not show its axis.
     CannotTell,

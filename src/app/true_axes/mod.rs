@@ -1,315 +1,66 @@
-//! True axes set by hand in the window: what there is to show of them, and what can be asked.
+//! True axes set by hand.
 //!
-//! An edit shows at once. It is written by `desk.rs` on a thread of its own, in order, and only that
-//! thread's answer makes it saved.
+//! An edit shows at once. `stores.rs` writes it beside the interface, in order, and only its answer makes the edit saved.
 
 mod agreement;
 mod apply;
 mod blind;
-mod commands;
-mod desk;
-mod middle;
+pub(super) mod commands;
+mod handles;
 mod scenes;
+pub(super) mod state;
+mod stores;
+mod subject;
 mod update;
 mod views;
 
-use std::collections::HashSet;
 use std::path::PathBuf;
-use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
-use serde::{Deserialize, Serialize};
-
-use crate::annotate::{
-    Annotation, Author, CloudAgreement, CloudId, Ends, Finding, Judgment, NUDGES_DEG, NameError, Pivot, Role,
-};
-use crate::geometry::{Extent, Unit};
-use crate::method::AxisSource;
-use crate::render::{Camera, Scene};
-use crate::undo::History;
+use super::workers::{JobId, Lane, Pool, Queue};
+use crate::annotate::Author;
+use crate::parallel::Cancelled;
 
 pub use agreement::SetReport;
 pub use blind::overlay_reveals;
 pub use commands::{Decision, TrueAxesCommand, Turn};
-pub(super) use update::Annotator;
-pub use views::{EditView, Handle};
+pub use handles::{EditView, Handle};
+pub use state::{Draft, Ghost, Grab, KeptTrueAxes, Saving, Subject, TrueAxesState};
 
-/// What checks an axis: the cloud once more, moved by the symmetry that a true axis would have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-pub enum Ghost {
-    /// Nothing.
-    #[default]
-    Off,
-    /// The cloud turned by 180° about the axis.
-    Turned,
-    /// The cloud mirrored in the plane through the axis and the ray from the depth camera.
-    Mirrored,
+use scenes::{Made, Scenes, Wanted};
+use stores::{AxisCloud, AxisStores, Status};
+
+/// The jobs about axes set by hand, and what they were last asked.
+pub(super) struct TrueAxes {
+    stores: Queue<AxisStores, Status>,
+    /// The job whose answer is the present status.
+    newest: JobId,
+    /// The cloud and the author that the stores were last turned to.
+    turned_to: Option<(AxisCloud, Option<Author>)>,
+    scenes: Lane<Scenes>,
+    scenes_asked: Option<Wanted>,
+    made: Option<Made>,
+    set: Lane<Result<SetReport, Cancelled>>,
+    mine: Lane<Vec<bool>>,
+    mine_asked: Option<(Author, usize, Option<PathBuf>)>,
 }
 
-/// An axis that is being set by two clicks.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Draft {
-    /// None is.
-    #[default]
-    None,
-    /// Both ends are to be set, though there may be an axis.
-    Anew,
-    /// The peduncle's base is set.
-    Base(DVec3),
-}
-
-/// What is held with the mouse.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grab {
-    /// What.
-    pub handle: Handle,
-    /// In which view.
-    pub view: EditView,
-    /// Where the handle was.
-    pub place: DVec3,
-    /// Where the cursor was, in the view's pixels.
-    pub at_px: DVec2,
-}
-
-/// The cloud whose axis is set.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Subject {
-    /// The cloud's file.
-    pub path: PathBuf,
-    /// Which cloud it is.
-    pub cloud: CloudId,
-    /// The unit of its coordinates.
-    pub unit: Unit,
-    /// About where its middle lies, by what is seen of it. It gives a click its depth, and has nothing to
-    /// do with the method's fruit center.
-    pub middle: DVec3,
-    /// What the bulk of its points spans.
-    pub extent: Extent,
-    /// Some of the bulk's points, for framing.
-    pub sample: Arc<[DVec3]>,
-    /// Where the depth camera was.
-    pub viewpoint: DVec3,
-}
-
-/// Whether what is shown is on the disk.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Saving {
-    /// Nothing was said, so there is nothing to save.
-    Nothing,
-    /// The files are being opened.
-    Opening,
-    /// Being written.
-    Saving,
-    /// On the disk.
-    Saved,
-    /// It is not, and why: a sentence.
-    Failed(String),
-}
-
-/// What a restart keeps.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct KeptTrueAxes {
-    /// The annotator's name.
-    pub name: String,
-    /// Whether everything computed is hidden.
-    pub is_blind: bool,
-    /// The step of the buttons that turn, as an index of [`NUDGES_DEG`].
-    pub step: usize,
-    /// What checks the axis.
-    pub ghost: Ghost,
-}
-
-impl Default for KeptTrueAxes {
-    fn default() -> Self {
+impl TrueAxes {
+    pub(super) fn new(pool: &Pool) -> Self {
         Self {
-            name: String::new(),
-            is_blind: false,
-            // One degree.
-            step: 1,
-            ghost: Ghost::Off,
-        }
-    }
-}
-
-/// Everything about axes set by hand that there is to show.
-#[derive(Debug, Clone)]
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each says one thing that is so or not"
-)]
-pub struct TrueAxesState {
-    /// The annotator's name; empty as long as nobody has said one.
-    pub name: String,
-    /// In which role axes are set.
-    pub role: Role,
-    /// Whether the name has to be asked for.
-    pub asks_name: bool,
-    /// Whether the left button sets the axis.
-    pub is_editing: bool,
-    /// Whether everything computed is hidden.
-    pub is_blind: bool,
-    /// Whether this cloud was shown with what is computed before, so that an axis is not set blindly.
-    pub was_seen: bool,
-    /// Whether everybody's axes are drawn.
-    pub shows_all: bool,
-    /// The step of the buttons that turn, as an index of [`NUDGES_DEG`].
-    pub step: usize,
-    /// What stays where it is when the axis is turned.
-    pub pivot: Pivot,
-    /// What checks the axis.
-    pub ghost: Ghost,
-    /// The cloud; `None` for a sample, and where there is none.
-    pub subject: Option<Subject>,
-    /// An axis that is being set.
-    pub draft: Draft,
-    /// Where a click would land.
-    pub landing: Option<DVec3>,
-    /// What is held with the mouse.
-    pub grabbed: Option<Grab>,
-    /// The axis while it is dragged, before it counts.
-    pub moving: Option<Ends>,
-    /// What was said, and can be undone or done again.
-    pub history: History<Judgment>,
-    /// Whether that is on the disk.
-    pub saving: Saving,
-    /// Other clouds whose axes could not be saved yet.
-    pub unsaved_elsewhere: Vec<PathBuf>,
-    /// What ought to be known about the files, a sentence each.
-    pub notices: Vec<String>,
-    /// The axis file.
-    pub axis_file: Option<PathBuf>,
-    /// What everybody says of the cloud, as it is on the disk.
-    pub annotations: Vec<Annotation>,
-    /// How far they agree.
-    pub agreement: Option<CloudAgreement>,
-    /// How far annotators agree over the open clouds, once that was asked for.
-    pub set: Option<Arc<SetReport>>,
-    /// Clouds looked through for that, and their number, while it is under way.
-    pub set_progress: Option<f64>,
-    /// For each open cloud whether this annotator has set its axis; empty while that is not known.
-    pub mine: Arc<Vec<bool>>,
-    /// The reference axis that was chosen by its source.
-    pub compared: Option<AxisSource>,
-    /// The locked views, from the front, from the side and end-on, in edit mode.
-    pub locked: Option<[Camera; 3]>,
-    /// What the locked views show.
-    pub small_scene: Option<Arc<Scene>>,
-    /// The view with the ghost, where one is shown.
-    pub ghost_scene: Option<Arc<Scene>>,
-    /// Clouds, by their hashes, that were shown with what is computed.
-    seen: HashSet<String>,
-}
-
-impl TrueAxesState {
-    pub(super) fn new(kept: KeptTrueAxes) -> Self {
-        Self {
-            name: kept.name,
-            role: Role::Annotator,
-            asks_name: false,
-            is_editing: false,
-            is_blind: kept.is_blind,
-            was_seen: false,
-            shows_all: false,
-            step: kept.step.min(NUDGES_DEG.len() - 1),
-            pivot: Pivot::Middle,
-            ghost: kept.ghost,
-            subject: None,
-            draft: Draft::None,
-            landing: None,
-            grabbed: None,
-            moving: None,
-            history: History::default(),
-            saving: Saving::Nothing,
-            unsaved_elsewhere: Vec::new(),
-            notices: Vec::new(),
-            axis_file: None,
-            annotations: Vec::new(),
-            agreement: None,
-            set: None,
-            set_progress: None,
-            mine: Arc::default(),
-            compared: None,
-            locked: None,
-            small_scene: None,
-            ghost_scene: None,
-            seen: HashSet::new(),
+            stores: Queue::new(pool, AxisStores::default()),
+            newest: 0,
+            turned_to: None,
+            scenes: Lane::new(pool),
+            scenes_asked: None,
+            made: None,
+            set: Lane::new(pool),
+            mine: Lane::new(pool),
+            mine_asked: None,
         }
     }
 
-    /// What a restart keeps.
-    pub(super) fn kept(&self) -> KeptTrueAxes {
-        KeptTrueAxes {
-            name: self.name.clone(),
-            is_blind: self.is_blind,
-            step: self.step,
-            ghost: self.ghost,
-        }
-    }
-
-    /// Whoever sets the axis.
-    ///
-    /// # Errors
-    /// Where the name cannot be one.
-    pub fn author(&self) -> Result<Author, NameError> {
-        match self.role {
-            Role::Annotator => Author::annotator(&self.name),
-            Role::Adjudicator => Author::adjudicator(&self.name),
-        }
-    }
-
-    /// What the annotator says of the cloud, saved or not.
-    pub fn judgment(&self) -> Option<&Judgment> {
-        self.history.current()
-    }
-
-    /// The axis that counts; `None` where none is set, or it cannot be told.
-    pub fn set_ends(&self) -> Option<Ends> {
-        match self.judgment()?.finding {
-            Finding::Axis(ends) => Some(ends),
-            Finding::CannotTell => None,
-        }
-    }
-
-    /// The axis as it is to be drawn, while it is dragged too.
-    pub fn ends(&self) -> Option<Ends> {
-        self.moving.or(self.set_ends())
-    }
-
-    /// Whether edits can be made: edit mode, of a cloud whose files are open.
-    pub fn can_edit(&self) -> bool {
-        self.is_editing && self.subject.is_some() && self.saving != Saving::Opening
-    }
-
-    /// Which end the next click sets; `None` where a click sets none.
-    pub fn next_end(&self) -> Option<Handle> {
-        match self.draft {
-            _ if !self.can_edit() => None,
-            Draft::Base(_) => Some(Handle::BlossomEnd),
-            Draft::Anew => Some(Handle::PeduncleBase),
-            Draft::None => self.judgment().is_none().then_some(Handle::PeduncleBase),
-        }
-    }
-
-    /// Whether something is not on the disk that ought to be.
-    pub fn is_unsaved(&self) -> bool {
-        matches!(self.saving, Saving::Saving) || self.has_failed()
-    }
-
-    /// Whether something could not be written. Edits wait for it.
-    pub fn has_failed(&self) -> bool {
-        let waits = matches!(self.saving, Saving::Failed(_)) && self.judgment().is_some();
-        waits || !self.unsaved_elsewhere.is_empty()
-    }
-
-    /// How many of the open clouds have this annotator's axis, and how many there are.
-    pub fn progress(&self) -> Option<(usize, usize)> {
-        let set = self.mine.iter().filter(|&&is_mine| is_mine).count();
-        (!self.mine.is_empty()).then_some((set, self.mine.len()))
-    }
-
-    /// The step of the buttons that turn, in degrees.
-    pub fn step_deg(&self) -> f64 {
-        NUDGES_DEG[self.step.min(NUDGES_DEG.len() - 1)]
+    /// Whether a result is still to come or to be taken.
+    pub(super) fn is_busy(&self) -> bool {
+        self.stores.is_busy() || self.scenes.is_busy() || self.set.is_busy() || self.mine.is_busy()
     }
 }

@@ -1,10 +1,10 @@
-//! What edit mode draws beside the usual scene: the ghost, and the locked views' smaller cloud.
+//! The scenes of edit mode: the ghost, and the locked views' smaller cloud.
 
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::Ghost;
+use super::state::Ghost;
 use crate::annotate::Ends;
 use crate::app::inspector::look::{Look, next_generation};
 use crate::render::{Color, Points, Scene};
@@ -16,7 +16,7 @@ const GHOST: usize = 100_000;
 
 const GRAY: Color = [0xa4, 0xa6, 0xac, 255];
 
-/// What the scenes are made from.
+/// The input of the scenes.
 #[derive(Clone)]
 pub(super) struct Wanted {
     pub(super) look: Arc<Look>,
@@ -24,7 +24,7 @@ pub(super) struct Wanted {
     /// The axis that the large view's ghost is of: of a large cloud it is drawn when an axis is let go.
     pub(super) main_ends: Option<Ends>,
     pub(super) ghost: Ghost,
-    /// From the depth camera to the fruit.
+    /// The direction from the depth camera to the fruit.
     pub(super) view_ray: DVec3,
     pub(super) pixels_per_point: f32,
 }
@@ -49,7 +49,7 @@ impl Wanted {
     }
 }
 
-/// What was made before: what is left of it keeps its generation, and is not sent to the GPU again.
+/// The last scenes: the parts that stay keep their generation, and are not sent to the GPU again.
 #[derive(Clone)]
 pub(super) struct Made {
     wanted: Wanted,
@@ -131,7 +131,7 @@ fn thinned(look: &Look, pixels_per_point: f32) -> Points {
     }
 }
 
-/// How the ghost comes from the cloud, about the scene's origin.
+/// The motion that makes the ghost of the cloud, about the scene's origin.
 enum Motion {
     Turned { middle: DVec3, direction: DVec3 },
     Mirrored { middle: DVec3, normal: DVec3 },

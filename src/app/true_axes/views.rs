@@ -1,75 +1,14 @@
-//! Where an axis is edited: handles, the locked views, and where a click lands.
+//! Places of the views in which an axis is edited: where a click lands, and the locked cameras.
 
 use glam::{DVec2, DVec3};
 
-use super::{Draft, Grab, Subject, TrueAxesState};
+use super::handles::Handle;
+use super::state::{Draft, Grab, Subject, TrueAxesState};
 use crate::annotate::Ends;
-use crate::app::dragged;
+use crate::app::inspector::navigate::dragged;
 use crate::render::{Camera, Projection, Viewport};
 
-/// A view in which the axis is edited.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum EditView {
-    /// The large one.
-    Main,
-    /// The axis upright, seen from the depth camera's side.
-    Front,
-    /// The axis upright, seen from a right angle to that.
-    Side,
-    /// Along the axis, from the peduncle.
-    EndOn,
-}
-
-impl EditView {
-    /// The locked ones, in the order of [`TrueAxesState::locked`].
-    pub const LOCKED: [Self; 3] = [Self::Front, Self::Side, Self::EndOn];
-
-    /// What it is called.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Main => "View",
-            Self::Front => "Front",
-            Self::Side => "Side",
-            Self::EndOn => "End-on",
-        }
-    }
-}
-
-/// What can be held of an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Handle {
-    /// The peduncle's base.
-    PeduncleBase,
-    /// The blossom end.
-    BlossomEnd,
-    /// The middle: the axis as a whole.
-    Middle,
-}
-
-impl Handle {
-    /// All of them; where they lie over one another, the first is grabbed.
-    pub const ALL: [Self; 3] = [Self::PeduncleBase, Self::BlossomEnd, Self::Middle];
-
-    /// What it is called.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::PeduncleBase => "Peduncle base",
-            Self::BlossomEnd => "Blossom end",
-            Self::Middle => "Whole axis",
-        }
-    }
-
-    /// Where it lies.
-    pub fn place(self, ends: &Ends) -> DVec3 {
-        match self {
-            Self::PeduncleBase => ends.peduncle_base(),
-            Self::BlossomEnd => ends.blossom_end(),
-            Self::Middle => ends.middle(),
-        }
-    }
-}
-
-/// From how many logical pixels on a handle is grabbed.
+/// The distance in logical pixels within which a press grabs a handle.
 const REACH_PX: f64 = 14.0;
 
 impl TrueAxesState {
@@ -89,7 +28,7 @@ impl TrueAxesState {
         near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, handle)| handle)
     }
 
-    /// Where a click at `pixel` lands. The axis lies inside the fruit: the peduncle's base lands as deep
+    /// The point at which a click at `pixel` lands. The axis lies inside the fruit: the peduncle's base lands as deep
     /// as the fruit's middle, the blossom end as deep as the point that is opposite the base.
     pub fn landing_at(&self, pixel: DVec2, camera: &Camera, viewport: Viewport) -> Option<DVec3> {
         let middle = self.subject.as_ref()?.middle;
@@ -104,7 +43,7 @@ impl TrueAxesState {
         Some(camera.point_at_depth(pixel, depth, viewport)).filter(|p| p.is_finite())
     }
 
-    /// Where what is held comes to with the cursor at `pixel`: in the plane that faces the camera.
+    /// The position of a held handle with the cursor at `pixel`: in the plane that faces the camera.
     pub fn held_at(&self, grab: &Grab, pixel: DVec2, camera: &Camera, viewport: Viewport) -> DVec3 {
         dragged(grab.place, pixel - grab.at_px, camera, viewport)
     }

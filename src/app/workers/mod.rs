@@ -7,12 +7,16 @@ mod schedule;
 mod watch;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 pub use lane::Lane;
 pub use pool::{Pool, Repaint};
 pub use queue::Queue;
 pub use schedule::{Crashed, JobId};
 pub use watch::{JobWatch, Progress};
+
+/// The time for which a frame waits for a small job, so that a small cloud's results are in the frame that asked for them.
+pub const PATIENCE: Duration = Duration::from_millis(7);
 
 /// Locks data that a panic never leaves half changed.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

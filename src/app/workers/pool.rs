@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use super::locked;
 
-/// How long a thread waits for a task before it ends.
+/// The time that a thread waits for a task before it ends.
 const IDLE: Duration = Duration::from_secs(5);
 
 type Task = Box<dyn FnOnce() + Send>;
@@ -38,7 +38,7 @@ pub type Repaint = Arc<dyn Fn() + Send + Sync>;
 #[derive(Clone)]
 pub struct Pool {
     shared: Arc<Shared>,
-    pub(super) repaint: Repaint,
+    repaint: Repaint,
 }
 
 impl Pool {
@@ -78,6 +78,11 @@ impl Pool {
         if let Some(value) = value {
             self.spawn(move || drop(value));
         }
+    }
+
+    /// The function that tells the interface to draw again.
+    pub fn repaint(&self) -> &Repaint {
+        &self.repaint
     }
 
     /// The number of threads that run now.

@@ -102,7 +102,7 @@ impl<T: Send + 'static> Schedule<T> {
             shared: Arc::new(Shared {
                 jobs: Mutex::new(jobs),
                 changed: Condvar::new(),
-                repaint: pool.repaint.clone(),
+                repaint: pool.repaint().clone(),
                 only_newest,
             }),
         }

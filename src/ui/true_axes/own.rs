@@ -68,14 +68,9 @@ fn numbers(ui: &mut Ui, state: &State, ends: &Ends, commands: &mut Vec<Command>)
     let symbol = unit.map_or(String::new(), |unit| format!(" {}", unit.symbol()));
     let tip = "The distance between the ends. What is held stays where it is.";
     let response = row(ui, "Length", tip, |ui| {
-        let number = Number {
-            name: "Length of the axis",
-            suffix: &symbol,
-            range: 1e-9..=1e12,
-            speed: 0.02 / in_cm,
-            decimals: decimals(unit),
-            width: Number::WIDTH,
-        };
+        let number = Number::new("Length of the axis", 1e-9..=1e12)
+            .suffix(&symbol)
+            .steps(0.02 / in_cm, decimals(unit));
         number.show(ui, &mut length, tip)
     });
     edited(

@@ -129,14 +129,12 @@ fn settings(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) {
             edit.note(&response, "center samples");
             let tip = "How widely the random points are scattered about the cloud's mean, in multiples of the \
                        cloud's own spread.";
-            let number = Number {
-                name: "Spread of the random points, in multiples of the cloud's",
-                suffix: " × cloud",
-                range: 0.01..=100.0,
-                speed: 0.01,
-                decimals: 2,
-                width: Number::WIDTH,
-            };
+            let number = Number::new(
+                "Spread of the random points, in multiples of the cloud's",
+                0.01..=100.0,
+            )
+            .suffix(" × cloud")
+            .steps(0.01, 2);
             let response = number.row(ui, "Spread", &mut search.spread, tip);
             edit.note(&response, "center spread");
             let tip = "The seed of the random points: the same seed gives the same points on every machine.";

@@ -56,14 +56,10 @@ fn outliers(ui: &mut Ui, edit: &mut Edit<'_>) {
             edit.note(&response, "outlier neighbors");
             let tip = "Standard deviations above the mean beyond which a point is an outlier. A smaller number \
                        leaves out more.";
-            let number = Number {
-                name: "Standard deviations beyond which a point is an outlier",
-                suffix: " std. dev.",
-                range: 0.01..=100.0,
-                speed: 0.01,
-                decimals: 2,
-                width: Number::WIDTH,
-            };
+            let name = "Standard deviations beyond which a point is an outlier";
+            let number = Number::new(name, 0.01..=100.0)
+                .suffix(" std. dev.")
+                .steps(0.01, 2);
             let response = number.row(ui, "Beyond", &mut filter.std_ratio, tip);
             edit.note(&response, "outlier ratio");
         });
@@ -81,14 +77,9 @@ fn voxels(ui: &mut Ui, edit: &mut Edit<'_>) {
     }
     if let Some(edge_cm) = &mut edge_cm {
         ui.indent("voxels", |ui| {
-            let number = Number {
-                name: "Voxel edge in centimeters",
-                suffix: " cm",
-                range: 0.001..=1000.0,
-                speed: 0.005,
-                decimals: 3,
-                width: Number::WIDTH,
-            };
+            let number = Number::new("Voxel edge in centimeters", 0.001..=1000.0)
+                .suffix(" cm")
+                .steps(0.005, 3);
             let response = number.row(ui, "Edge", edge_cm, tip);
             edit.note(&response, "voxel");
         });

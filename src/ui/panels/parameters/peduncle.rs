@@ -295,20 +295,11 @@ fn hue(ui: &mut Ui, state: &State, edit: &mut Edit<'_>) -> bool {
             label,
             tip: "A hue in degrees: red 0, yellow 60, green 120, blue 240. A range may run through red, as 350 \
                   to 20 does.",
-            number: Number {
-                name,
-                suffix: "°",
-                range: 0.0..=360.0,
-                speed: 1.0,
-                decimals: 0,
-                width: 56.0,
-            },
+            number: Number::new(name, 0.0..=360.0).suffix("°").width(56.0),
             usual: 0.0..=360.0,
             step: 1.0,
-            logarithmic: false,
-            can_reset: false,
         }
-        .show(ui, value);
+        .show(ui, value, false);
         is_tried |= response.hovered() || response.dragged() || response.has_focus();
         edit.note(&response, "hue");
     }

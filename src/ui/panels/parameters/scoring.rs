@@ -14,21 +14,16 @@ pub(super) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
     let (response, is_reset) = SliderRow {
         label: "Grid steps u",
         tip,
-        number: Number {
-            name: "Grid steps u",
-            suffix: "",
-            range: CandidateGrid::MIN_U as f64..=CandidateGrid::MAX_U as f64,
-            speed: 1.0,
-            decimals: 0,
-            width: 56.0,
-        },
+        number: Number::new(
+            "Grid steps u",
+            CandidateGrid::MIN_U as f64..=CandidateGrid::MAX_U as f64,
+        )
+        .width(56.0),
         // More take minutes for a large cloud.
         usual: CandidateGrid::MIN_U as f64..=60.0,
         step: 1.0,
-        logarithmic: true,
-        can_reset: edit.request.params.u != 6,
     }
-    .show(ui, &mut u);
+    .show(ui, &mut u, edit.request.params.u != 6);
     edit.note(&response, "u");
     // Clamped by the field, and by the slider.
     edit.request.params.u = if is_reset { 6 } else { u.round() as usize };
@@ -46,23 +41,18 @@ pub(super) fn grid_and_weight(ui: &mut Ui, edit: &mut Edit<'_>) {
     let tip = "The weight of an angle against a distance in S = d + τξ (Eq. 15), in centimeters per radian. \
                The paper found 3/π = 0.955 by trial. At 0 only distances count. Takes effect at once.";
     let tau = &mut edit.request.params.tau_cm_per_rad;
+    let can_reset = *tau != TAU_CM_PER_RAD;
     let (response, is_reset) = SliderRow {
         label: "Angle weight τ",
         tip,
-        number: Number {
-            name: "Angle weight τ in cm/rad",
-            suffix: " cm/rad",
-            range: 0.0..=1000.0,
-            speed: 0.01,
-            decimals: 3,
-            width: 92.0,
-        },
+        number: Number::new("Angle weight τ in cm/rad", 0.0..=1000.0)
+            .suffix(" cm/rad")
+            .steps(0.01, 3)
+            .width(92.0),
         usual: 0.0..=4.0,
         step: 0.0,
-        logarithmic: false,
-        can_reset: *tau != TAU_CM_PER_RAD,
     }
-    .show(ui, tau);
+    .show(ui, tau, can_reset);
     if is_reset {
         *tau = TAU_CM_PER_RAD;
     }
@@ -107,20 +97,14 @@ pub(super) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
             label: "Least partners",
             tip: "The least share of points with a visible partner (Eq. 14) with which a plane can win, in percent. \
                   Not in the paper, which amounts to 0 %. Takes effect at once.",
-            number: Number {
-                name: "Least share of partners in percent",
-                suffix: " %",
-                range: 0.0..=100.0,
-                speed: 0.2,
-                decimals: 1,
-                width: 62.0,
-            },
+            number: Number::new("Least share of partners in percent", 0.0..=100.0)
+                .suffix(" %")
+                .steps(0.2, 1)
+                .width(62.0),
             usual: 0.0..=100.0,
             step: 1.0,
-            logarithmic: false,
-            can_reset: false,
         }
-        .show(ui, &mut percent);
+        .show(ui, &mut percent, false);
         if percent != before {
             // The default stays the exact number, by which the preset is recognized.
             params.min_partner_fraction = if (percent - usual).abs() < 1e-9 {

@@ -11,23 +11,48 @@ const FIELD_WIDTH: f32 = 78.0;
 
 /// A number that is typed, stepped with the arrow keys, or dragged.
 pub struct Number<'a> {
-    /// Its name, with the unit if that is not in the suffix.
-    pub name: &'a str,
-    /// The unit written behind it.
-    pub suffix: &'a str,
-    /// The range of valid values.
-    pub range: RangeInclusive<f64>,
-    /// The change by a logical pixel dragged, or a key pressed.
-    pub speed: f64,
-    /// The most decimals shown.
-    pub decimals: usize,
-    /// The width of its field, in logical pixels.
-    pub width: f32,
+    name: &'a str,
+    suffix: &'a str,
+    range: RangeInclusive<f64>,
+    speed: f64,
+    decimals: usize,
+    width: f32,
 }
 
-impl Number<'_> {
-    /// The usual width.
+impl<'a> Number<'a> {
+    /// The usual width of a field, in logical pixels.
     pub const WIDTH: f32 = FIELD_WIDTH;
+
+    /// A number with its name, which has the unit if none stands behind the number, and its valid range.
+    pub fn new(name: &'a str, range: RangeInclusive<f64>) -> Self {
+        Self {
+            name,
+            suffix: "",
+            range,
+            speed: 1.0,
+            decimals: 0,
+            width: FIELD_WIDTH,
+        }
+    }
+
+    /// Sets the unit behind the number.
+    pub fn suffix(self, suffix: &'a str) -> Self {
+        Self { suffix, ..self }
+    }
+
+    /// Sets the change by a logical pixel dragged, or a key pressed, and the most decimals shown.
+    pub fn steps(self, speed: f64, decimals: usize) -> Self {
+        Self {
+            speed,
+            decimals,
+            ..self
+        }
+    }
+
+    /// Sets the width of the field, in logical pixels.
+    pub fn width(self, width: f32) -> Self {
+        Self { width, ..self }
+    }
 
     /// Shows the field.
     pub fn show(&self, ui: &mut Ui, value: &mut f64, tip: &str) -> Response {
@@ -99,22 +124,18 @@ pub struct SliderRow<'a> {
     pub usual: RangeInclusive<f64>,
     /// The step of the slider; 0 for none.
     pub step: f64,
-    /// Whether the slider gives more room to small values.
-    pub logarithmic: bool,
-    /// Whether a reset is offered.
-    pub can_reset: bool,
 }
 
 impl SliderRow<'_> {
-    /// Shows it; returns whether its reset was clicked as well.
-    pub fn show(&self, ui: &mut Ui, value: &mut f64) -> (Response, bool) {
+    /// Shows it, with a reset if `can_reset`; returns whether the reset was clicked as well.
+    pub fn show(&self, ui: &mut Ui, value: &mut f64, can_reset: bool) -> (Response, bool) {
         let mut is_reset = false;
         let field = ui
             .horizontal(|ui| {
                 ui.add(Label::new(self.label)).on_hover_text(self.tip);
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     let field = self.number.show(ui, value, self.tip);
-                    if self.can_reset {
+                    if can_reset {
                         is_reset = reset(ui, self.number.name);
                     }
                     field
@@ -126,7 +147,8 @@ impl SliderRow<'_> {
         let slider = Slider::new(value, self.usual.clone())
             .show_value(false)
             .clamping(SliderClamping::Never)
-            .logarithmic(self.logarithmic)
+            // A range that begins above 0 gives small values more space.
+            .logarithmic(*self.usual.start() > 0.0)
             .step_by(self.step)
             .trailing_fill(true);
         let slider = ui

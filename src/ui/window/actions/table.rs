@@ -9,7 +9,7 @@ use crate::render::Projection;
 use crate::ui::action::{ALT, Action, CTRL, Group, NONE, SHIFT, WindowAct};
 use crate::ui::pane::Pane;
 use crate::ui::true_axes;
-use crate::view::{Coloring, Overlay, Theme, ViewPreset};
+use crate::view::{Coloring, Overlay, Style, Theme, ViewPreset};
 
 pub(super) fn file_actions(state: &State) -> Vec<Action> {
     use Group::File;
@@ -191,40 +191,32 @@ pub(super) fn view_actions(state: &State) -> Vec<Action> {
     ]
 }
 
+/// Returns the command that changes the style of the view.
+fn restyle(state: &State, change: impl FnOnce(&mut Style)) -> Command {
+    let mut style = state.style.clone();
+    change(&mut style);
+    Command::Style(Box::new(style))
+}
+
 pub(super) fn style_actions(state: &State) -> Vec<Action> {
     let (style, is_blind) = (&state.style, state.true_axes.is_blind);
     let mut actions = Vec::new();
-    let number = [
-        Key::Num1,
-        Key::Num2,
-        Key::Num3,
-        Key::Num4,
-        Key::Num5,
-        Key::Num6,
-        Key::Num7,
-        Key::Num8,
-    ];
-    for (coloring, key) in Coloring::ALL.into_iter().zip(number) {
-        let mut new = style.clone();
-        new.coloring = coloring;
+    for coloring in Coloring::ALL {
+        let (title, key) = coloring_title(coloring);
+        let command = restyle(state, |style| style.coloring = coloring);
         actions.push(
-            Action::app(
-                Group::Color,
-                coloring_title(coloring),
-                Command::Style(Box::new(new)),
-            )
-            .key(NONE, key)
-            .on(state.shown_style().coloring == coloring)
-            .when(!(is_blind && coloring.needs_plane())),
+            Action::app(Group::Color, title, command)
+                .key(NONE, key)
+                .on(state.shown_style().coloring == coloring)
+                .when(!(is_blind && coloring.needs_plane())),
         );
     }
     for overlay in Overlay::ALL {
-        let mut new = style.clone();
         let is_on = style.overlays.has(overlay);
-        new.overlays.set(overlay, !is_on);
         let (title, key) = overlay_title(overlay);
         let is_hidden = is_blind && overlay_reveals(overlay);
-        let action = Action::app(Group::Overlay, title, Command::Style(Box::new(new)))
+        let command = restyle(state, |style| style.overlays.set(overlay, !is_on));
+        let action = Action::app(Group::Overlay, title, command)
             .on(is_on && !is_hidden)
             .when(!is_hidden);
         actions.push(match key {
@@ -232,24 +224,20 @@ pub(super) fn style_actions(state: &State) -> Vec<Action> {
             None => action,
         });
     }
-    let mut flat = style.clone();
-    flat.eye_dome = !style.eye_dome;
+    let shading = restyle(state, |style| style.eye_dome = !style.eye_dome);
     actions.push(
-        Action::app(Group::Overlay, "Shading by depth", Command::Style(Box::new(flat)))
+        Action::app(Group::Overlay, "Shading by depth", shading)
             .key(NONE, Key::E)
             .on(style.eye_dome),
     );
     let size = style.point_size.unwrap_or(4.0);
-    let sized = |size: f32| {
-        let mut new = style.clone();
-        new.point_size = Some(size.clamp(1.0, 24.0));
-        Command::Style(Box::new(new))
-    };
     for (title, key, factor) in [
         ("Larger points", Key::CloseBracket, 1.25),
         ("Smaller points", Key::OpenBracket, 1.0 / 1.25),
     ] {
-        let action = Action::app(Group::Overlay, title, sized(size * factor)).repeating();
+        let size = (factor * size).clamp(1.0, 24.0);
+        let command = restyle(state, |style| style.point_size = Some(size));
+        let action = Action::app(Group::Overlay, title, command).repeating();
         // While the brush is in hand, these keys size it.
         let is_brush = state.tool == Tool::Brush;
         actions.push(if is_brush { action } else { action.key(NONE, key) });
@@ -257,17 +245,17 @@ pub(super) fn style_actions(state: &State) -> Vec<Action> {
     actions
 }
 
-/// Returns a coloring's name in menus.
-fn coloring_title(coloring: Coloring) -> &'static str {
+/// Returns a coloring's name in menus, and its key.
+fn coloring_title(coloring: Coloring) -> (&'static str, Key) {
     match coloring {
-        Coloring::Rgb => "Colors of the file",
-        Coloring::Side => "Side of the plane",
-        Coloring::Partner => "Visible symmetric partner",
-        Coloring::Distance => "Distance d",
-        Coloring::Angle => "Angle ξ",
-        Coloring::Score => "Contribution d + τξ",
-        Coloring::Normal => "Direction of the normal",
-        Coloring::Label => "Label",
+        Coloring::Rgb => ("Colors of the file", Key::Num1),
+        Coloring::Side => ("Side of the plane", Key::Num2),
+        Coloring::Partner => ("Visible symmetric partner", Key::Num3),
+        Coloring::Distance => ("Distance d", Key::Num4),
+        Coloring::Angle => ("Angle ξ", Key::Num5),
+        Coloring::Score => ("Contribution d + τξ", Key::Num6),
+        Coloring::Normal => ("Direction of the normal", Key::Num7),
+        Coloring::Label => ("Label", Key::Num8),
     }
 }
 
@@ -293,8 +281,7 @@ fn overlay_title(overlay: Overlay) -> (&'static str, Option<Key>) {
 
 pub(super) fn window_actions(state: &State) -> Vec<Action> {
     use Group::Window;
-    let mut other = state.style.clone();
-    other.theme = if state.is_dark() {
+    let theme = if state.is_dark() {
         Theme::Light
     } else {
         Theme::Dark
@@ -307,9 +294,13 @@ pub(super) fn window_actions(state: &State) -> Vec<Action> {
         Action::window("Find a command …", Window, WindowAct::Palette)
             .key(CTRL, Key::P)
             .key(CTRL, Key::K),
-        Action::app(Window, "Light colors", Command::Style(Box::new(other)))
-            .key(SHIFT, Key::T)
-            .on(!state.is_dark()),
+        Action::app(
+            Window,
+            "Light colors",
+            restyle(state, |style| style.theme = theme),
+        )
+        .key(SHIFT, Key::T)
+        .on(!state.is_dark()),
         Action::app(Window, "Larger interface", Command::Scale(scale + 0.1))
             .key(CTRL, Key::Plus)
             .key(CTRL, Key::Equals),

@@ -1,5 +1,5 @@
-//! Eigenvalues and eigenvectors of symmetric 3×3 matrices, by Jacobi's rotations: slow to nobody at
-//! this size, and as exact for equal or vanishing eigenvalues as for any others.
+//! Eigenvalues and eigenvectors of symmetric 3×3 matrices, by Jacobi's rotations: quick enough at this size,
+//! and as exact for equal or vanishing eigenvalues as for any others.
 
 use glam::DVec3;
 
@@ -8,28 +8,14 @@ const ROUNDS: usize = 16;
 
 /// The eigenvalues of the symmetric matrix `[xx, xy, xz, yy, yz, zz]`, smallest first, with unit
 /// eigenvectors at right angles in the same order.
-pub(crate) fn symmetric_eigen(matrix: [f64; 6]) -> ([f64; 3], [DVec3; 3]) {
-    // Below the last digit of the largest eigenvalue nothing changes any more.
-    let (values, axes) = jacobi(matrix, 1e-17);
-    let mut order = [0, 1, 2];
-    order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
-    (order.map(|i| values[i]), order.map(|i| axes[i]))
-}
-
-/// Directions at right angles, in no order, about along the eigenvectors: what they leave beside the
-/// diagonal is at most a thousandth of it.
-pub(crate) fn about_eigenvectors(matrix: [f64; 6]) -> [DVec3; 3] {
-    jacobi(matrix, 1e-3).1
-}
-
-/// The diagonal and the axes once what is beside the diagonal is at most `rest` of it.
-fn jacobi([xx, xy, xz, yy, yz, zz]: [f64; 6], rest: f64) -> ([f64; 3], [DVec3; 3]) {
+pub(crate) fn symmetric_eigen([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> ([f64; 3], [DVec3; 3]) {
     let mut a = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
     let mut axes = [DVec3::X, DVec3::Y, DVec3::Z];
     for _ in 0..ROUNDS {
         let off = a[0][1].abs() + a[0][2].abs() + a[1][2].abs();
         let size = a[0][0].abs() + a[1][1].abs() + a[2][2].abs();
-        if off <= rest * size {
+        // Below the last digit of the largest eigenvalue nothing changes any more.
+        if off <= 1e-17 * size {
             break;
         }
         for (p, q, r) in [(0, 1, 2), (0, 2, 1), (1, 2, 0)] {
@@ -52,5 +38,7 @@ fn jacobi([xx, xy, xz, yy, yz, zz]: [f64; 6], rest: f64) -> ([f64; 3], [DVec3; 3
             (axes[p], axes[q]) = (c * axes[p] - s * axes[q], s * axes[p] + c * axes[q]);
         }
     }
-    ([a[0][0], a[1][1], a[2][2]], axes)
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| a[i][i].total_cmp(&a[j][j]));
+    (order.map(|i| a[i][i]), order.map(|i| axes[i]))
 }
