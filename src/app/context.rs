@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::command::Command;
 use super::inspector::key::AnalysisKey;
-use super::inspector::stages::Stages;
+use super::inspector::stages::FruitStages;
 use super::state::{Message, Settings, State};
 use super::workers::{Crashed, Pool};
 use crate::evaluate::CloudTags;
@@ -29,7 +29,7 @@ pub(super) struct Context {
     pub(super) undo: History<Step>,
     pub(super) pool: Pool,
     /// The stages of the current cloud's newest analysis.
-    pub(super) stages: Stages,
+    pub(super) stages: FruitStages,
     /// Requests of one part to another, which the program carries out as soon as the part has done its work.
     pub(super) follow_ups: Vec<Command>,
     reloads: u64,
@@ -42,7 +42,7 @@ impl Context {
             state,
             undo: History::default(),
             pool: pool.clone(),
-            stages: Stages::default(),
+            stages: FruitStages::default(),
             follow_ups: Vec::new(),
             reloads: 0,
             next_message: 0,

@@ -44,7 +44,7 @@ pub use command::Command;
 pub use inspector::command_line::{command_line, quoted};
 pub use inspector::image::page;
 pub use inspector::navigate::{default_camera, dragged};
-pub use inspector::stages::{Source, Walked};
+pub use inspector::stages::{AnalyzedFruit, Source};
 pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};

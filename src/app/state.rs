@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::peduncle::state::PeduncleState;
 use super::tool::Tool;
 use crate::app::inspector::look::Look;
-use crate::app::inspector::stages::{Source, Walked};
+use crate::app::inspector::stages::{AnalyzedFruit, Source};
 use crate::app::many::state::{KeptMany, ManyState};
 use crate::app::true_axes::state::{KeptTrueAxes, TrueAxesState};
 use crate::app::workers::Progress;
@@ -85,7 +85,7 @@ pub struct State {
     /// Whether there is something to redo.
     pub can_redo: bool,
     /// The newest analysis, which may be of older settings.
-    pub walked: Option<Arc<Walked>>,
+    pub walked: Option<Arc<AnalyzedFruit>>,
     /// A cloud that was read but not analyzed, and why: `None` where it only is not yet.
     pub unanalyzed: Option<(Arc<ShownPoints>, Option<String>)>,
     /// The axes to compare with.

@@ -59,7 +59,7 @@ pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
         Format::Text => write_text(&mut out, &args.cloud, &examined, &timings)?,
         Format::Json => {
             let report = AnalysisReport::new(&args.cloud, &request, args.analysis.seed, &examined, timings);
-            // Whole before the first byte goes out: a reader gets all of it or nothing.
+            // The text is complete before its first byte goes out, so that a reader gets all of it or nothing.
             let text = serde_json::to_string_pretty(&report)?;
             writeln!(out, "{text}")?;
         }
@@ -110,8 +110,7 @@ fn write_text(
                 direction(c.normal)
             );
             row(out, "Symmetry plane", &text)?;
-            let term = grid.index_of(c.g, c.h).map(|i| analysis.planes.terms[i]);
-            let partners = term.map_or(0, |t| t.partners);
+            let partners = analysis.planes.terms[best.index].partners;
             let share = 100.0 * partners as f64 / used as f64;
             let text = format!(
                 "score {:.4} cm, {partners} points have a partner ({share:.0} %)",
@@ -150,7 +149,7 @@ fn write_text(
     Ok(())
 }
 
-/// The peduncle's references, the axis' error against each, and how far they are apart.
+/// Writes the peduncle's references, the axis's error against each, and the angle between them.
 fn write_references(out: &mut impl Write, examined: &Examination) -> std::io::Result<()> {
     let Examination {
         fruit,
@@ -198,7 +197,7 @@ fn row(out: &mut impl Write, name: &str, value: &str) -> std::io::Result<()> {
     writeln!(out, "{name:<16}{value}")
 }
 
-/// The parameters that decide how the paper is read, in words.
+/// Describes the parameters that decide how the paper is read.
 fn reading(analysis: &Analysis) -> String {
     let params = &analysis.params;
     let center = match params.center {
@@ -227,7 +226,7 @@ fn unit_name(unit: Unit) -> &'static str {
     }
 }
 
-/// A position to a tenth of a millimeter or better.
+/// Formats a position to a tenth of a millimeter or better.
 fn position(p: DVec3, unit: Unit) -> String {
     let digits = match unit {
         Unit::Meter => 5,
@@ -238,7 +237,7 @@ fn position(p: DVec3, unit: Unit) -> String {
 }
 
 fn direction(v: DVec3) -> String {
-    // Adding zero keeps a rounded -0.0 from showing.
+    // Adding zero turns a rounded -0.0 into 0.
     let [x, y, z] = v.to_array().map(|c| (c * 1e4).round() / 1e4 + 0.0);
     format!("({x:.4}, {y:.4}, {z:.4})")
 }

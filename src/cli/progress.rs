@@ -49,9 +49,9 @@ impl StageTimes {
         let ends = self.entered.iter().skip(1).map(|e| e.1).chain([self.ended]);
         let spans = self.entered.iter().zip(ends);
         let of_stage = spans.filter(|((s, _), _)| *s == stage);
-        of_stage
-            .map(|((_, start), end)| (end - *start).as_secs_f64() * 1e3)
-            .sum()
+        let milliseconds = of_stage.map(|((_, start), end)| (end - *start).as_secs_f64() * 1e3);
+        // The sum of nothing is -0.0.
+        milliseconds.sum::<f64>() + 0.0
     }
 }
 

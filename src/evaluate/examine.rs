@@ -2,7 +2,7 @@
 
 use crate::annotate::{Role, estimates};
 use crate::fruit::{Fruit, Request};
-use crate::method::{Analysis, AnalysisError, AxisEstimate, AxisSource, Observe, analyze, axis_error_rad};
+use crate::method::{Analysis, AnalysisError, AxisEstimate, AxisSource, Observe, Stages, axis_error_rad};
 use crate::text::sentence;
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +46,8 @@ pub struct Examination {
     pub references: Vec<AxisEstimate>,
     /// The warnings of the file, then those of the method, as sentences.
     pub warnings: Vec<String>,
+    /// The stages of the analysis, for others of the same cloud.
+    pub(super) stages: Stages,
 }
 
 #[cfg(feature = "window")]
@@ -70,18 +72,19 @@ impl Examination {
 /// # Errors
 /// Returns an error if the cloud cannot be analyzed, or the observer cancels the work.
 pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result<Examination, AnalysisError> {
-    let params = request.params(&fruit);
-    let analysis = if request.without_peduncle {
-        analyze(&fruit.body(), &params, observe)?
+    let mut stages = Stages::new(if request.without_peduncle {
+        fruit.body()
     } else {
-        analyze(fruit.cloud(), &params, observe)?
-    };
+        fruit.cloud().clone()
+    });
+    let analysis = stages.analyze(&request.params(&fruit), observe)?;
     let (references, warnings) = collect_references(&fruit, request, &analysis);
     Ok(Examination {
         fruit,
         analysis,
         references,
         warnings,
+        stages,
     })
 }
 

@@ -14,6 +14,8 @@ mod outcome;
 mod pictures;
 mod report;
 #[cfg(feature = "reports")]
+pub mod reproduce;
+#[cfg(feature = "reports")]
 mod results;
 mod row;
 mod row_store;
@@ -40,7 +42,7 @@ pub use row_store::{RowStore, StoreKind, StoreProblem, StoredRow};
 pub use runner::{EvaluateError, EvaluatedCloud, Reuse, Runner, annotation_files, evaluate_file};
 pub use start::{StartError, start_axis};
 pub use summary::Summary;
-pub use sweep::{Sweep, SweepError, SweepSettings, sweep_cloud};
+pub use sweep::{Sweep, SweepSettings, sweep_cloud};
 pub use tags::{CloudTags, TAGS_FILE, add_tags, read_tags, write_tags};
 #[cfg(feature = "window")]
 pub use thumbnails::{THUMBNAIL_PX, ThumbnailFile, ThumbnailRenderer, ThumbnailSettings};

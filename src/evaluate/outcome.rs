@@ -51,6 +51,7 @@ impl Outcome {
             analysis,
             references,
             warnings,
+            ..
         } = examined;
         Self::of_parts(file, fruit, analysis, references, warnings)
     }

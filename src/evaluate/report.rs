@@ -133,6 +133,7 @@ impl AnalysisReport {
             analysis,
             references,
             warnings,
+            ..
         } = examined;
         let reference = reference_of(references, TruthChoice::Peduncle);
         let reported = |reference: &AxisEstimate| ReferenceReport {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::row_store::{params_key, stable_hash};
-use super::{KnownHash, Outcome, RowStore, StoredRow, SweepError, SweepSettings, TruthChoice, sweep_cloud};
+use super::{KnownHash, Outcome, RowStore, StoredRow, SweepSettings, TruthChoice, sweep_cloud};
 use crate::fruit::{AxisFiles, Request, files_behind};
 use crate::method::Observe;
 use crate::parallel::Cancelled;
@@ -161,7 +161,7 @@ pub fn evaluate_file(
             .map(|(examined, (settings, choice))| sweep_cloud(&examined, choice, settings, observe));
         let sweep_deg = match swept.transpose() {
             Ok(errors_deg) => errors_deg,
-            Err(SweepError::Cancelled(cancelled)) => return Err(cancelled.into()),
+            Err(error) if error.is_cancelled() => return Err(EvaluateError::Cancelled),
             Err(error) => {
                 outcome.add_warning(&sentence(&error.to_string()));
                 None

@@ -1,12 +1,9 @@
 //! The error over a range of the settings u and τ, with all others fixed.
 
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::{Examination, TruthChoice, reference_of};
-use crate::geometry::angle_between_lines_rad;
-use crate::method::{CandidateGrid, ParamError, Ranking, plane_terms, symmetry_axis};
-use crate::parallel::{Cancelled, Watch};
+use crate::method::{AnalysisError, Observe, Params, axis_error_rad};
 
 /// The settings to try: every u with every τ.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,17 +21,6 @@ pub struct Sweep {
     pub settings: SweepSettings,
     sums_deg: Vec<f64>,
     counts: Vec<usize>,
-}
-
-/// The reason why a cloud was not swept.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum SweepError {
-    /// A u is out of range.
-    #[error(transparent)]
-    Params(#[from] ParamError),
-    /// The watch cancelled the work.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
 }
 
 impl Sweep {
@@ -68,38 +54,30 @@ impl Sweep {
     }
 }
 
-/// Computes the error of one cloud in degrees at each setting, u-major; `None` where there is no axis or no
-/// reference. The terms of the planes are computed once for each u, and ranked anew for each τ.
+/// Computes one cloud's error in degrees at each setting, u-major; `None` if it has no axis there or no
+/// reference. The planes' terms are computed once for each u, and ranked anew for each τ.
 ///
 /// # Errors
-/// Returns an error if a u is out of range, or the watch cancels the work.
+/// Returns an error if a u or τ is out of range, or `observe` cancels the work.
 pub fn sweep_cloud(
     examined: &Examination,
     choice: TruthChoice,
     settings: &SweepSettings,
-    watch: &dyn Watch,
-) -> Result<Vec<Option<f64>>, SweepError> {
-    let analysis = &examined.analysis;
-    let params = &analysis.params;
+    observe: &dyn Observe,
+) -> Result<Vec<Option<f64>>, AnalysisError> {
     let truth = reference_of(&examined.references, choice);
-    let error_deg = |axis: DVec3| truth.map(|t| angle_between_lines_rad(axis, t.direction).to_degrees());
+    let mut stages = examined.stages.clone();
     let mut errors = Vec::with_capacity(settings.u.len() * settings.tau_cm_per_rad.len());
     for &u in &settings.u {
-        let grid = CandidateGrid::new(u)?;
-        let terms = plane_terms(
-            &analysis.surface,
-            params.unit,
-            analysis.center,
-            params.viewpoint,
-            grid,
-            watch,
-        )?;
-        for &tau in &settings.tau_cm_per_rad {
-            let ranking = Ranking::new(&terms, tau, params.aggregation, params.min_partner_fraction);
-            let axis = ranking.best().ok().and_then(|best| {
-                symmetry_axis(grid.candidate(best).normal, analysis.center, params.viewpoint).ok()
-            });
-            errors.push(axis.and_then(error_deg));
+        for &tau_cm_per_rad in &settings.tau_cm_per_rad {
+            let params = Params {
+                u,
+                tau_cm_per_rad,
+                ..examined.analysis.params.clone()
+            };
+            let axis = stages.analyze(&params, observe)?.axis;
+            let error_rad = axis.zip(truth).map(|(axis, truth)| axis_error_rad(&axis, truth));
+            errors.push(error_rad.map(f64::to_degrees));
         }
     }
     Ok(errors)

@@ -10,11 +10,11 @@ mod request;
 mod request_options;
 pub mod unit_guess;
 
+pub use axis_files::{AxisFile, AxisFiles, annotation_paths, read_annotations};
 pub use cloud_file::{
     CloudFile, ReadError, ReadErrorKind, parse_cloud, parse_cloud_watched, read_cloud, read_cloud_watched,
     sha256_hex,
 };
-pub use axis_files::{AxisFile, AxisFiles, annotation_paths, read_annotations};
 pub use listing::{clouds_in, files_behind};
 pub use picked::PickedPoints;
 pub use read::{Fruit, FruitError, PeduncleChoice, companion_path, removed_path, truth_path};

@@ -132,6 +132,16 @@ impl Cloud {
         self.labels.clone()
     }
 
+    /// Whether the positions and normals are the very columns of `other`, shared and not merely equal:
+    /// whatever is computed from one of the clouds holds for both.
+    pub fn shares_points_with(&self, other: &Self) -> bool {
+        let same_normals = match (&self.normals, &other.normals) {
+            (Some(ours), Some(theirs)) => Arc::ptr_eq(ours, theirs),
+            (ours, theirs) => ours.is_none() && theirs.is_none(),
+        };
+        Arc::ptr_eq(&self.positions, &other.positions) && same_normals
+    }
+
     /// The file's normals as they stand there (any length; zero for "none"), if it has any.
     pub fn normals(&self) -> Option<&[Vec3]> {
         self.normals.as_deref().map(Vec::as_slice)

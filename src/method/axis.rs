@@ -1,4 +1,4 @@
-//! The symmetry axis (Eq. 16), and axes from wherever they come.
+//! The symmetry axis (Eq. 16), and axes from other sources.
 
 use std::borrow::Cow;
 
@@ -7,26 +7,26 @@ use glam::DVec3;
 /// Why Eq. 16 gives no axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum AxisError {
-    /// The cross product vanishes.
+    /// The cross product of Eq. 16 vanishes.
     #[error("the axis is undefined: the plane's normal is parallel to the line of sight (Eq. 16)")]
     NormalAlongViewRay,
-    /// There is no line of sight.
+    /// The viewpoint is the center, so that there is no line of sight.
     #[error("the axis is undefined: the viewpoint is the fruit center")]
     ViewpointAtCenter,
 }
 
-/// The sine of the angle between normal and view ray below which the cross product's direction is
-/// rounding: about 2·10⁻⁷ degrees.
+/// The sine of the angle between normal and view ray, about 2·10⁻⁷ degrees, below which the direction of
+/// the cross product is nothing but rounding.
 const PARALLEL_SINE: f64 = 4e-9;
 
-/// The unit direction γ of the symmetry axis, which starts from the fruit center (Eq. 16, then
-/// normalized). `plane_normal` is of unit length; the others are in one frame and unit.
+/// Computes the unit direction γ of the symmetry axis, which starts from the fruit center (Eq. 16, then
+/// normalized). `plane_normal` has unit length; `center` and `viewpoint` share a frame and unit.
 ///
 /// γ is perpendicular to the view ray, so the axis of a fruit that leans towards the camera by δ is
 /// missed by at least δ.
 ///
 /// # Errors
-/// Where the normal is parallel to the view ray, or there is none.
+/// Returns an error if the normal is parallel to the view ray, or the viewpoint is the center.
 pub fn symmetry_axis(plane_normal: DVec3, center: DVec3, viewpoint: DVec3) -> Result<DVec3, AxisError> {
     let toward_viewpoint = (viewpoint - center)
         .try_normalize()
@@ -39,7 +39,7 @@ pub fn symmetry_axis(plane_normal: DVec3, center: DVec3, viewpoint: DVec3) -> Re
     Ok(gamma / length)
 }
 
-/// Where an axis came from.
+/// The source of an axis.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum AxisSource {
     /// Eq. 16, from the symmetry plane.
@@ -50,16 +50,16 @@ pub enum AxisSource {
     PeduncleDirection,
     /// The simulator that made the cloud.
     Simulation,
-    /// Somebody, by hand.
+    /// One annotator, by hand.
     Annotator(String),
-    /// The mean of so many annotators' axes.
+    /// The mean of the axes of several annotators, with their number.
     Annotators(usize),
-    /// Whoever decided between the annotators.
+    /// The adjudicator between the annotators.
     Adjudicated,
 }
 
 impl AxisSource {
-    /// The name that reports use; `annotator:NAME` for one annotator, `annotators:3` for the mean of 3.
+    /// The name that reports use: `annotator:NAME` for one annotator, `annotators:3` for the mean of three.
     pub fn name(&self) -> Cow<'static, str> {
         match self {
             Self::SymmetryPlane => "symmetry-plane".into(),
@@ -76,12 +76,12 @@ impl AxisSource {
 /// One estimate of a fruit's axis among several.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisEstimate {
-    /// Where it came from.
+    /// Its source.
     pub source: AxisSource,
-    /// A point on it, in the file's unit and frame: mostly the fruit center.
+    /// A point on it, mostly the fruit center, in the file's unit and frame.
     pub origin: DVec3,
     /// Its unit direction.
     pub direction: DVec3,
-    /// How sure its source is of it, 0 to 1, where the source says so.
+    /// The confidence that its source states, 0 to 1; `None` if it states none.
     pub confidence: Option<f64>,
 }

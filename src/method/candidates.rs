@@ -12,7 +12,7 @@ pub struct CandidateGrid {
     u: usize,
 }
 
-/// One candidate plane's place in the grid, and its normal.
+/// The place of one candidate plane in the grid, and its normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate {
     /// 1 to u: the step of α.
@@ -30,13 +30,13 @@ pub struct Candidate {
 impl CandidateGrid {
     /// The least u that the paper allows (u > 4).
     pub const MIN_U: usize = 5;
-    /// The most that we allow: half a degree between planes.
+    /// The largest u that is allowed: half a degree between planes.
     pub const MAX_U: usize = 360;
 
-    /// A grid of u × u planes.
+    /// Makes a grid of u × u planes.
     ///
     /// # Errors
-    /// Where u is not in [`CandidateGrid::MIN_U`]..=[`CandidateGrid::MAX_U`].
+    /// Returns an error if u is not in [`CandidateGrid::MIN_U`]..=[`CandidateGrid::MAX_U`].
     pub fn new(u: usize) -> Result<Self, ParamError> {
         if (Self::MIN_U..=Self::MAX_U).contains(&u) {
             Ok(Self { u })
@@ -50,12 +50,12 @@ impl CandidateGrid {
         self.u
     }
 
-    /// How many planes there are: u².
+    /// The number of planes, u².
     pub fn plane_count(self) -> usize {
         self.u * self.u
     }
 
-    /// The plane at `index`, which counts h fastest (g-major), from 0 to u² − 1.
+    /// The plane at `index` (0 to u² − 1), which counts h fastest (g-major).
     pub fn candidate(self, index: usize) -> Candidate {
         let (g, h) = (index / self.u + 1, index % self.u + 1);
         let step = PI / self.u as f64;
@@ -75,13 +75,13 @@ impl CandidateGrid {
         }
     }
 
-    /// The index of the plane at step `g`, `h` (each 1 to u); `None` outside the grid.
+    /// The index of the plane at the steps `g` and `h` (each 1 to u); `None` outside the grid.
     pub fn index_of(self, g: usize, h: usize) -> Option<usize> {
         let range = 1..=self.u;
         (range.contains(&g) && range.contains(&h)).then(|| (g - 1) * self.u + h - 1)
     }
 
-    /// Every plane, g-major.
+    /// All planes, g-major.
     pub fn candidates(self) -> impl ExactSizeIterator<Item = Candidate> {
         (0..self.plane_count()).map(move |i| self.candidate(i))
     }

@@ -3,21 +3,21 @@
 use glam::DVec3;
 
 use super::Surface;
-use super::partners::{Take, partners_once};
+use super::partners::{PartnerSink, partners_once};
 use super::terms::PIECE;
 use crate::geometry::{Plane, Unit};
 use crate::parallel::{Cancelled, Watch, map_pieces};
 
-/// Which side of a plane a point lies on.
+/// A side of a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Side {
-    /// The side that the normal points to, or in the plane.
+    /// The side that the normal points to, with the plane itself.
     Front,
     /// The other side.
     Back,
 }
 
-/// A point's visible partner, and what it adds to the score.
+/// The visible partner of a point, and its contribution to the score.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Partner {
     /// The index of the nearest neighbor of the reflected point, in the surface.
@@ -29,7 +29,7 @@ pub struct Partner {
 }
 
 impl Partner {
-    /// The point's score S = d + τ·ξ in centimeters (Eq. 15).
+    /// Computes the point's score S = d + τ·ξ in centimeters (Eq. 15).
     pub fn score_cm(&self, tau_cm_per_rad: f64) -> f64 {
         self.distance_cm + tau_cm_per_rad * self.angle_rad
     }
@@ -49,15 +49,16 @@ pub struct PointDetail {
 pub struct PlaneDetail {
     /// The plane.
     pub plane: Plane,
-    /// One a point of the surface.
+    /// One for each point of the surface.
     pub points: Vec<PointDetail>,
 }
 
-/// Computes every point's part in the score of one plane, seen from `viewpoint`. Kept apart from
-/// [`super::plane_terms`], since keeping it for all planes would take u²·N rows.
+/// Computes every point's part in the score of one plane, seen from `viewpoint`; plane and viewpoint are
+/// in the surface's unit and frame. [`super::plane_terms`] keeps only the sums, since the details of all
+/// planes would take u²·N rows.
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
+/// Returns [`Cancelled`] if the watch cancels the work.
 pub fn plane_detail(
     surface: &Surface,
     unit: Unit,
@@ -78,14 +79,14 @@ pub fn plane_detail(
             partner: None,
         })
         .collect();
-    // Nothing is indexed, and nothing found, where there are more points than can be.
+    // A surface of more points than the search tree can hold has no partners.
     if surface.neighbors().is_some() {
         let pieces = map_pieces(surface.len(), PIECE, watch, |range| {
-            let found = Found {
+            let list = PartnerList {
                 unit_in_cm: unit.in_cm(),
                 partners: Vec::with_capacity(range.len()),
             };
-            partners_once(surface, range, &plane, viewpoint, found).partners
+            partners_once(surface, range, &plane, viewpoint, list).partners
         })?;
         for (i, partner) in pieces.into_iter().flatten() {
             points[i as usize].partner = Some(partner);
@@ -94,15 +95,15 @@ pub fn plane_detail(
     Ok(PlaneDetail { plane, points })
 }
 
-/// Keeps what is found, with the points' indices.
-struct Found {
+/// The partners of some points, with the points' indices.
+struct PartnerList {
     unit_in_cm: f64,
     partners: Vec<(u32, Partner)>,
 }
 
-impl Take for Found {
+impl PartnerSink for PartnerList {
     #[inline]
-    fn take(&mut self, points: &[u32], partners: &[u32], distances: &[f64], angles_rad: &[f64]) {
+    fn accept(&mut self, points: &[u32], partners: &[u32], distances: &[f64], angles_rad: &[f64]) {
         for i in 0..points.len() {
             let partner = Partner {
                 index: partners[i] as usize,

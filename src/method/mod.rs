@@ -1,13 +1,12 @@
-//! The paper, a file a step.
+//! The method of the paper, a file for each step.
 //!
 //! ```text
 //! cloud ─▶ filters ─▶ normals ─▶ center ─▶ plane terms ─▶ scores ─▶ axis
 //!                    (surface)             n, ΣD, ΣΞ     ╲─▶ detail of one plane
 //! ```
 //!
-//! Every stage is a pure function of its inputs; [`analyze`] walks through all of them. Changing τ,
-//! the aggregation or the partner fraction needs [`Ranking::new`] alone, on the same
-//! [`PlaneTerms`]; changing u keeps the [`Surface`] and the center.
+//! Every stage is a pure function of its inputs. [`analyze`] runs all of them once; [`Stages`] keeps
+//! their results, so that the next analysis of the cloud runs only the stages whose inputs have changed.
 
 mod analysis;
 mod axis;
@@ -18,13 +17,14 @@ mod error;
 mod params;
 mod partners;
 mod score;
+mod stages;
 mod surface;
 mod terms;
+mod used_points;
 mod visibility;
+mod warning;
 
-pub use analysis::{
-    Analysis, AnalysisError, BestPlane, Observe, Stage, UsedPoints, Warning, analyze, used_points,
-};
+pub use analysis::{Analysis, AnalysisError, BestPlane};
 pub use axis::{AxisError, AxisEstimate, AxisSource, symmetry_axis};
 pub use candidates::{Candidate, CandidateGrid};
 pub use center::{
@@ -34,6 +34,8 @@ pub use detail::{Partner, PlaneDetail, PointDetail, Side, plane_detail};
 pub use error::axis_error_rad;
 pub use params::{Filters, NormalSource, OutlierFilter, ParamError, Params, Preset, TAU_CM_PER_RAD};
 pub use score::{Aggregation, NoSymmetryPlane, Ranking};
+pub use stages::{Observe, Stage, Stages, analyze};
 pub use surface::{Surface, SurfaceError};
 pub use terms::{PlaneTerm, PlaneTerms, plane_terms, terms_of_planes};
 pub use visibility::{has_visible_partner, is_viewpoint_inside};
+pub use warning::Warning;

@@ -1,4 +1,4 @@
-//! Every number and choice that the result depends on, and the two readings of the paper.
+//! The parameters of an analysis, and the two readings of the paper.
 
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
@@ -11,7 +11,7 @@ use crate::geometry::Unit;
 /// The paper's weight of an angle against a distance (Eq. 15): 3/π centimeters per radian.
 pub const TAU_CM_PER_RAD: f64 = 3.0 / std::f64::consts::PI;
 
-/// Where the normals come from.
+/// The source of the normals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum NormalSource {
@@ -24,30 +24,30 @@ pub enum NormalSource {
 /// The statistical outlier filter.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct OutlierFilter {
-    /// How many nearest points each point's mean distance is taken over.
+    /// The number of nearest points that each point's mean distance is taken over.
     pub neighbors: NonZeroUsize,
-    /// How many standard deviations above the cloud's mean of that distance a point may lie.
+    /// The largest excess of a point's mean distance over the cloud's mean, in standard deviations.
     pub std_ratio: f64,
 }
 
-/// Filters that run before anything else: outliers, voxel grid, and then the sample of what is still
-/// too much. The first two are off by default.
+/// The filters of a cloud, in their order: outliers, voxel grid, and the sample of a cloud that is still
+/// too large. The first two are off by default.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Filters {
-    /// Leave out statistical outliers.
+    /// The filter of statistical outliers.
     pub outliers: Option<OutlierFilter>,
-    /// Thin to one point a cube of this edge, in centimeters.
+    /// The edge of the voxel grid in centimeters, which leaves one point for each cube.
     pub voxel_cm: Option<f64>,
-    /// The most points that are analyzed, at least [`Filters::FEWEST`]. Of a cloud of more a sample is:
-    /// a voxel grid, as fine as this number allows.
+    /// The most points that are analyzed, at least [`Filters::FEWEST`]. A larger cloud is replaced by a
+    /// sample: a voxel grid, as fine as this number allows.
     #[serde(default = "Filters::usual_most")]
     pub max_points: usize,
 }
 
 impl Filters {
-    /// What [`Filters::max_points`] is where nothing is said: a cloud of so many points takes seconds.
+    /// The default of [`Filters::max_points`], which takes seconds to analyze.
     pub const MOST: usize = 1_000_000;
-    /// The least it may be.
+    /// The least [`Filters::max_points`].
     pub const FEWEST: usize = 100;
 
     fn usual_most() -> usize {
@@ -71,8 +71,8 @@ impl Default for Filters {
 pub enum Preset {
     /// Word for word: the RMS distance of Eq. 3, the sum of the scores, every plane in the running.
     AsPrinted,
-    /// What the words around the equations mean: the point equidistant from the surface, the mean
-    /// score, and only planes for which enough points have a partner.
+    /// As the text around the equations means it: the point equidistant from the surface, the mean score,
+    /// and only planes for which enough points have a partner.
     AsIntended,
 }
 
@@ -93,7 +93,7 @@ impl Preset {
     }
 }
 
-/// Every parameter of an analysis. Build one from a [`Preset`] and change what should differ.
+/// The parameters of an analysis. Start from a [`Preset`] by [`Params::new`] and change the others.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Params {
     /// Steps of the candidate grid along each angle; the paper's § 3.2 uses 6.
@@ -102,19 +102,19 @@ pub struct Params {
     pub tau_cm_per_rad: f64,
     /// The unit of the cloud's coordinates.
     pub unit: Unit,
-    /// Where normals come from.
+    /// The source of the normals.
     pub normals: NormalSource,
     /// k of Eq. 2, at least 3.
     pub k: NonZeroUsize,
-    /// How the fruit center is found.
+    /// The method to find the fruit center.
     pub center: CenterMethod,
-    /// How a plane's score is made of its points' scores.
+    /// The way that a plane's score is made of its points' scores.
     pub aggregation: Aggregation,
-    /// The least share of points with a partner that lets a plane win, 0 to 1.
+    /// The least share of points with a partner that a plane must have to win, 0 to 1.
     pub min_partner_fraction: f64,
     /// p_v in the file's unit and frame.
     pub viewpoint: DVec3,
-    /// Filters of the cloud.
+    /// The filters of the cloud.
     pub filters: Filters,
 }
 
@@ -137,13 +137,13 @@ pub enum ParamError {
     /// k is too small for a plane.
     #[error("k must be at least 3, since three points make a plane, not {0}")]
     NeighborCount(usize),
-    /// The partner fraction is no fraction.
+    /// The partner fraction is not from 0 to 1.
     #[error("the least partner fraction must be from 0 to 1, not {0}")]
     PartnerFraction(f64),
     /// A coordinate is not finite.
     #[error("the {0} must have finite coordinates")]
     NotFinite(&'static str),
-    /// A filter's number is out of range.
+    /// A number that must be positive is not.
     #[error("the {0} must be a positive number, not {1}")]
     NotPositive(&'static str, f64),
     /// The random search has no points to try.
@@ -152,7 +152,7 @@ pub enum ParamError {
 }
 
 impl Params {
-    /// A preset's parameters with the paper's numbers, for a cloud in `unit` seen from the origin.
+    /// The parameters of a preset with the paper's numbers, for a cloud in `unit` seen from the origin.
     pub fn new(preset: Preset, unit: Unit) -> Self {
         let aggregation = preset.aggregation();
         Self {
@@ -169,9 +169,9 @@ impl Params {
         }
     }
 
-    /// The preset whose reading of the paper these parameters follow, or `None` for a mixture of
-    /// their own ("custom"). The reading is the center's method, the aggregation and the least
-    /// partner fraction; u, τ and the rest are numbers that the paper leaves free.
+    /// The preset whose reading of the paper these parameters follow, or `None` for a mixture ("custom").
+    /// The reading is the method of the center, the aggregation and the least partner fraction; u, τ and
+    /// the rest are numbers that the paper leaves free.
     pub fn preset(&self) -> Option<Preset> {
         [Preset::AsPrinted, Preset::AsIntended]
             .into_iter()
@@ -187,10 +187,10 @@ impl Params {
         self.preset().map_or("custom", Preset::name)
     }
 
-    /// Checks every number's range.
+    /// Checks the range of every number.
     ///
     /// # Errors
-    /// The first one that is out of it.
+    /// Returns an error for the first number that is out of range.
     pub fn check(&self) -> Result<(), ParamError> {
         CandidateGrid::new(self.u)?;
         if !(self.tau_cm_per_rad.is_finite() && self.tau_cm_per_rad >= 0.0) {

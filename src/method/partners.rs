@@ -1,9 +1,12 @@
-//! The partners of many points under one plane (Eq. 11–15).
+//! The search for the visible partners of many points under one plane (Eq. 11–15).
+//!
+//! Points and normals are reflected eight at a time by vector instructions. Those whose partner is visible
+//! wait until they are a block, whose nearest neighbors are then searched for together.
 
 #![allow(
     clippy::inline_always,
     clippy::needless_range_loop,
-    reason = "only what is inlined is built for each kind of vector instructions; loops over lanes"
+    reason = "only inlined functions are compiled for each kind of vector instructions; lanes are looped over"
 )]
 
 use std::ops::Range;
@@ -15,28 +18,28 @@ use super::Surface;
 use crate::geometry::{Plane, angles_between_directions_rad};
 use crate::neighbors::{BLOCK, BatchSearch, BlockResult, Neighbors};
 
-/// Points that are reflected together: what the widest vectors hold of double precision.
+/// Points that are reflected together: as many as the widest vectors hold numbers of double precision.
 const LANES: usize = 8;
 
-/// What is made of the points of a surface that have a visible partner, and of that partner.
-pub(super) trait Take {
-    /// Takes the next ones, all slices as long: the points' indices in the surface, their partners'
-    /// indices, d in the surface's unit, and ξ in radians.
-    fn take(&mut self, points: &[u32], partners: &[u32], distances: &[f64], angles_rad: &[f64]);
+/// A consumer of the points that have a visible partner.
+pub(super) trait PartnerSink {
+    /// Accepts the next points, a value for each in every slice: the indices in the surface of the points
+    /// and of their partners, d in the surface's unit, and ξ in radians.
+    fn accept(&mut self, points: &[u32], partners: &[u32], distances: &[f64], angles_rad: &[f64]);
 }
 
-/// A surface's points and normals in an order in which each point lies close to the one before it,
-/// coordinate by coordinate: for many planes.
-pub(super) struct Ordered<'a> {
+/// The points and normals of a surface, coordinate by coordinate, in an order in which each point lies
+/// close to the one before it. Worth its copies for many planes.
+pub(super) struct OrderedSurface<'a> {
     neighbors: &'a Neighbors,
     points: [Vec<f64>; 3],
     normals: [Vec<f64>; 3],
-    /// The normals of the tree's places, in its order.
+    /// The normals in the order of the positions in the search tree.
     normals_at: Vec<DVec3>,
 }
 
-impl<'a> Ordered<'a> {
-    /// `None` for more points than can be indexed.
+impl<'a> OrderedSurface<'a> {
+    /// Returns `None` for more points than the search tree can hold.
     pub(super) fn new(surface: &'a Surface) -> Option<Self> {
         let neighbors = surface.neighbors()?;
         let normals = surface.normals();
@@ -49,21 +52,21 @@ impl<'a> Ordered<'a> {
         })
     }
 
-    /// The partners of the points of a range in this order, into `taker`.
-    pub(super) fn partners<T: Take>(
+    /// Passes the partners of the points of a range of this order to `sink`, and returns it.
+    pub(super) fn partners<T: PartnerSink>(
         &self,
         range: Range<usize>,
         plane: &Plane,
         viewpoint: DVec3,
-        taker: T,
+        sink: T,
     ) -> T {
         FindPartners {
-            taker,
+            sink,
             neighbors: self.neighbors,
             order: &self.neighbors.order()[range.clone()],
             points: self.points.each_ref().map(|of| &of[range.clone()]),
             normals: self.normals.each_ref().map(|of| &of[range.clone()]),
-            normals_at: NormalsAt::Places(&self.normals_at),
+            normals_at: NormalLookup::ByPosition(&self.normals_at),
             plane,
             viewpoint,
         }
@@ -71,18 +74,18 @@ impl<'a> Ordered<'a> {
     }
 }
 
-/// The partners of the points of a range in the order of the surface's neighbors, for a single plane:
-/// nothing is kept of the points beside the range. Nothing is found where there are more points than
-/// can be indexed.
-pub(super) fn partners_once<T: Take>(
+/// Passes the partners of the points of a range of the search tree's order to `sink`, and returns it. For
+/// a single plane: only the points of the range are copied. A surface of more points than the search tree
+/// can hold has no partners.
+pub(super) fn partners_once<T: PartnerSink>(
     surface: &Surface,
     range: Range<usize>,
     plane: &Plane,
     viewpoint: DVec3,
-    taker: T,
+    sink: T,
 ) -> T {
     let Some(neighbors) = surface.neighbors() else {
-        return taker;
+        return sink;
     };
     let order = &neighbors.order()[range];
     let (points, normals) = (
@@ -90,12 +93,12 @@ pub(super) fn partners_once<T: Take>(
         columns(surface.normals(), order),
     );
     FindPartners {
-        taker,
+        sink,
         neighbors,
         order,
         points: points.each_ref().map(Vec::as_slice),
         normals: normals.each_ref().map(Vec::as_slice),
-        normals_at: NormalsAt::Points(surface.normals()),
+        normals_at: NormalLookup::ByPoint(surface.normals()),
         plane,
         viewpoint,
     }
@@ -106,28 +109,29 @@ fn columns(of: &[DVec3], order: &[u32]) -> [Vec<f64>; 3] {
     std::array::from_fn(|e| order.iter().map(|&i| of[i as usize][e]).collect())
 }
 
-/// Where the normal of a place of the tree is found.
+/// The normals of the positions in the search tree. Equal points share a position, whose normal is that of
+/// the one with the lowest index.
 #[derive(Clone, Copy)]
-enum NormalsAt<'a> {
-    /// In the tree's order.
-    Places(&'a [DVec3]),
-    /// Under the lowest index of its points.
-    Points(&'a [DVec3]),
+enum NormalLookup<'a> {
+    /// A normal for each position, in their order.
+    ByPosition(&'a [DVec3]),
+    /// A normal for each point of the surface.
+    ByPoint(&'a [DVec3]),
 }
 
 struct FindPartners<'a, T> {
-    taker: T,
+    sink: T,
     neighbors: &'a Neighbors,
-    /// The points' indices, and then the points and normals themselves.
+    /// The indices of the points in the surface.
     order: &'a [u32],
     points: [&'a [f64]; 3],
     normals: [&'a [f64]; 3],
-    normals_at: NormalsAt<'a>,
+    normals_at: NormalLookup<'a>,
     plane: &'a Plane,
     viewpoint: DVec3,
 }
 
-/// Points with a visible partner that wait until they are a block.
+/// Points with a visible partner that wait until they are a block, with their reflections.
 struct Waiting {
     count: usize,
     point: [u32; BLOCK + LANES],
@@ -135,14 +139,14 @@ struct Waiting {
     normals: [[f64; BLOCK + LANES]; 3],
 }
 
-impl<T: Take> FindPartners<'_, T> {
-    /// By the widest vector instructions that this machine has. They round like all others.
+impl<T: PartnerSink> FindPartners<'_, T> {
+    /// Searches with the widest vector instructions that the machine has, all of which round alike.
     fn find(self) -> T {
         pulp::Arch::new().dispatch(self)
     }
 }
 
-impl<T: Take> pulp::WithSimd for FindPartners<'_, T> {
+impl<T: PartnerSink> pulp::WithSimd for FindPartners<'_, T> {
     type Output = T;
 
     #[inline(always)]
@@ -163,16 +167,16 @@ impl<T: Take> pulp::WithSimd for FindPartners<'_, T> {
                 gather(self.normals, lanes.clone()),
             );
             let (p, n, facing) = self.reflect(p, n);
-            let mut seen = 0;
+            let mut visible = 0;
             for i in 0..LANES {
-                seen += u32::from(facing[i] > 0.0);
+                visible += u32::from(facing[i] > 0.0);
             }
             let at = waiting.count;
-            // Neighbors are mostly seen, or not, together.
-            if seen == 0 {
+            // Points close to one another mostly have a visible partner all or none.
+            if visible == 0 {
                 continue;
             }
-            if seen as usize == LANES && lanes.len() == LANES {
+            if visible as usize == LANES && lanes.len() == LANES {
                 waiting.point[at..at + LANES].copy_from_slice(&order[lanes]);
                 for e in 0..3 {
                     waiting.reflected[e][at..at + LANES].copy_from_slice(&p[e]);
@@ -180,7 +184,8 @@ impl<T: Take> pulp::WithSimd for FindPartners<'_, T> {
                 }
                 waiting.count += LANES;
             } else {
-                // Each is written, and then perhaps written over: no branch a point.
+                // Every point is written, and the next one overwrites it unless its partner is visible:
+                // that takes no branch for each point.
                 for i in 0..lanes.len() {
                     waiting.point[waiting.count] = order[from + i];
                     for e in 0..3 {
@@ -208,12 +213,12 @@ impl<T: Take> pulp::WithSimd for FindPartners<'_, T> {
             }
             self.find_block(&mut search, &mut nearest, &waiting, size);
         }
-        self.taker
+        self.sink
     }
 }
 
-impl<T: Take> FindPartners<'_, T> {
-    /// The partners of the first `size` points that wait.
+impl<T: PartnerSink> FindPartners<'_, T> {
+    /// Searches for the partners of the first `size` waiting points and passes them on.
     #[inline(always)]
     fn find_block<S: Simd>(
         &mut self,
@@ -230,8 +235,8 @@ impl<T: Take> FindPartners<'_, T> {
             let at = nearest.position[i] as usize;
             partner[i] = first[at];
             let normal = match self.normals_at {
-                NormalsAt::Places(normals) => &normals[at],
-                NormalsAt::Points(normals) => &normals[partner[i] as usize],
+                NormalLookup::ByPosition(normals) => &normals[at],
+                NormalLookup::ByPoint(normals) => &normals[partner[i] as usize],
             };
             for e in 0..3 {
                 b[e][i] = normal[e];
@@ -239,7 +244,7 @@ impl<T: Take> FindPartners<'_, T> {
             distance[i] = nearest.distance_squared[i].sqrt();
         }
         let angle_rad = angles_between_directions_rad(&first_block(&waiting.normals), &b);
-        self.taker.take(
+        self.sink.accept(
             &waiting.point[..size],
             &partner[..size],
             &distance[..size],
@@ -273,8 +278,8 @@ fn gather(columns: [&[f64]; 3], lanes: Range<usize>) -> Lanes {
 }
 
 impl<T> FindPartners<'_, T> {
-    /// Points and normals reflected, and what is positive where the partner is visible: operation
-    /// for operation what [`super::has_visible_partner`] does.
+    /// Reflects points and normals; the third result is positive if the partner is visible. The operations
+    /// and their order are those of [`super::has_visible_partner`], so that both agree to the bit.
     #[inline(always)]
     fn reflect(&self, p: Lanes, n: Lanes) -> (Lanes, Lanes, [f64; LANES]) {
         let (c, m, v) = (self.plane.point, self.plane.normal, self.viewpoint);

@@ -1,10 +1,10 @@
-//! Scores of planes and their ranking (§ 2.5): from n, ΣD and ΣΞ alone, whatever the number of points.
+//! Scores of planes and their ranking (§ 2.5), from n, ΣD and ΣΞ alone.
 
 use serde::{Deserialize, Serialize};
 
 use super::{PlaneTerm, PlaneTerms};
 
-/// How a plane's score is made of its points' scores S.
+/// The way that a plane's score is made of its points' scores S.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -25,8 +25,8 @@ impl Aggregation {
         }
     }
 
-    /// The score of one plane in centimeters (lower is better). The mean of no points does not
-    /// exist; their sum is zero.
+    /// Computes the score of one plane in centimeters; the lowest wins. Without a partner the mean does
+    /// not exist (`None`), and the sum is zero.
     pub fn score_cm(self, term: &PlaneTerm, tau_cm_per_rad: f64) -> Option<f64> {
         let sum = term.distance_sum_cm + tau_cm_per_rad * term.angle_sum_rad;
         match self {
@@ -36,7 +36,7 @@ impl Aggregation {
     }
 }
 
-/// No plane can be the symmetry plane.
+/// The error of a ranking in which no plane can be the symmetry plane.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "no candidate plane has a partner for {:.0} % of the points; the most that one has is {:.1} %",
@@ -50,7 +50,7 @@ pub struct NoSymmetryPlane {
     pub largest_partner_fraction: f64,
 }
 
-/// Every plane's score, and the planes in their order.
+/// The score of every plane, and the planes in the order of their scores.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
     scores_cm: Vec<Option<f64>>,
@@ -59,8 +59,8 @@ pub struct Ranking {
 }
 
 impl Ranking {
-    /// Scores all planes. Those with a partner for less than `min_partner_fraction` of the points
-    /// have no score. O(u² log u), without touching a point.
+    /// Scores all planes and sorts them. Planes with a partner for less than `min_partner_fraction` of the
+    /// points have no score. Takes O(u² log u), whatever the number of points.
     pub fn new(
         planes: &PlaneTerms,
         tau_cm_per_rad: f64,
@@ -80,7 +80,7 @@ impl Ranking {
             .enumerate()
             .filter_map(|(i, s)| s.map(|s| (s, i)))
             .collect();
-        // Equal scores go by the grid's order, as the paper's loop over g and h would find them.
+        // Equal scores keep the grid's order, in which the paper's loop over g and h would find them.
         scored.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let most = planes.terms.iter().map(|t| t.partners).max().unwrap_or(0);
         Self {
@@ -106,7 +106,7 @@ impl Ranking {
     /// The index of the plane with the lowest score: the symmetry plane.
     ///
     /// # Errors
-    /// Where no plane reaches the partner fraction.
+    /// Returns an error if no plane reaches the partner fraction.
     pub fn best(&self) -> Result<usize, NoSymmetryPlane> {
         self.order.first().copied().ok_or(self.no_plane)
     }

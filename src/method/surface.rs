@@ -9,31 +9,31 @@ use crate::geometry::{Cloud, Spread, estimate_normals};
 use crate::neighbors::Neighbors;
 use crate::parallel::{Cancelled, Watch};
 
-/// Why a cloud is no surface that the method could work on.
+/// Why a cloud cannot be used as a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum SurfaceError {
-    /// There are hardly any points.
+    /// There are fewer than [`Surface::MIN_POINTS`] points.
     #[error("it has {found} points, and at least {} are needed", Surface::MIN_POINTS)]
     TooFewPoints {
         /// Points left after filters.
         found: usize,
     },
-    /// All points are the same one.
+    /// All points are equal.
     #[error("all of its {points} points are equal")]
     AllPointsEqual {
-        /// How many there are.
+        /// Points of the cloud.
         points: usize,
     },
-    /// The points make a line.
+    /// All points lie on a line.
     #[error("all of its {points} points lie on a line")]
     PointsOnALine {
-        /// How many there are.
+        /// Points of the cloud.
         points: usize,
     },
-    /// The file's normals were asked for, and it has none.
+    /// The file's normals were requested, and it has none.
     #[error("it has no normals of its own (nx, ny, nz); let them be estimated")]
     NoNormalsInFile,
-    /// Hardly any point has a normal.
+    /// Fewer than [`Surface::MIN_POINTS`] points have a normal.
     #[error(
         "only {with_normal} of its {points} points have a normal, and at least {} are needed",
         Surface::MIN_POINTS
@@ -41,21 +41,21 @@ pub enum SurfaceError {
     TooFewNormals {
         /// Points with a normal.
         with_normal: usize,
-        /// Points in all.
+        /// Points of the cloud.
         points: usize,
     },
-    /// The work was called off.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// The used points of a cloud: those that have a normal. In the file's unit and frame.
+/// The used points of a cloud, which are those that have a normal, in the file's unit and frame.
 #[derive(Debug, Clone)]
 pub struct Surface {
     points: Vec<DVec3>,
     normals: Vec<DVec3>,
     source: Vec<usize>,
-    /// Built when it is first asked for, once for all planes and all their details.
+    /// The search tree, built for the first plane and shared by all planes and their details.
     neighbors: OnceLock<Option<Arc<Neighbors>>>,
 }
 
@@ -66,27 +66,29 @@ impl PartialEq for Surface {
 }
 
 impl Surface {
-    /// The fewest points that are worked on: a sphere takes four.
+    /// The fewest points of a surface: a sphere takes four.
     pub const MIN_POINTS: usize = 4;
 
-    /// Points with their normals, which are made of unit length; those without one are left out.
+    /// Makes a surface of points and their normals, which are scaled to unit length. Points whose normal
+    /// is zero are left out, and so is the end of the longer column if the lengths differ.
     ///
     /// # Errors
-    /// Where the points or their normals are too few, all equal, or on a line. (Of columns of
-    /// unequal length the longer one's end is left out.)
+    /// Returns an error if the points or their normals are too few, or the points are all equal or on a
+    /// line.
     pub fn new(points: &[DVec3], normals: &[DVec3]) -> Result<Self, SurfaceError> {
         check_spread(points)?;
-        Self::of_those_with_normals(
+        Self::with_normals(
             points,
             normals.iter().take(points.len()).map(|n| n.try_normalize()),
         )
     }
 
-    /// The points of `cloud` with normals estimated from their `k` nearest (Eq. 2), turned towards
-    /// `viewpoint`.
+    /// Makes a surface of a cloud with normals that are estimated from the `k` nearest points of each
+    /// (Eq. 2) and turned towards `viewpoint`.
     ///
     /// # Errors
-    /// Where the points or their normals are too few, all equal, or on a line.
+    /// Returns an error if the points or their normals are too few, the points are all equal or on a
+    /// line, or the watch cancels the work.
     pub fn with_estimated_normals(
         cloud: &Cloud,
         k: NonZeroUsize,
@@ -95,23 +97,24 @@ impl Surface {
     ) -> Result<Self, SurfaceError> {
         check_spread(cloud.positions())?;
         let normals = estimate_normals(cloud.positions(), k, viewpoint, watch)?;
-        Self::of_those_with_normals(cloud.positions(), normals.into_iter())
+        Self::with_normals(cloud.positions(), normals.into_iter())
     }
 
-    /// The points of `cloud` with the file's normals as they stand there, made of unit length; they
-    /// are not turned, since a normal that faces away from the viewpoint says that the point could
-    /// not be seen from it (Eq. 11).
+    /// Makes a surface of a cloud with the normals of its file, scaled to unit length. They are not
+    /// turned, since a normal that faces away from the viewpoint says that the point could not be seen
+    /// from there (Eq. 11).
     ///
     /// # Errors
-    /// Where the cloud has no normals, or too few, or its points are too few, equal or on a line.
+    /// Returns an error if the cloud has no normals or too few, or its points are too few, all equal or
+    /// on a line.
     pub fn with_file_normals(cloud: &Cloud) -> Result<Self, SurfaceError> {
         let normals = cloud.normals().ok_or(SurfaceError::NoNormalsInFile)?;
         check_spread(cloud.positions())?;
         let unit = normals.iter().map(|n| n.as_dvec3().try_normalize());
-        Self::of_those_with_normals(cloud.positions(), unit)
+        Self::with_normals(cloud.positions(), unit)
     }
 
-    fn of_those_with_normals(
+    fn with_normals(
         points: &[DVec3],
         normals: impl Iterator<Item = Option<DVec3>>,
     ) -> Result<Self, SurfaceError> {
@@ -137,12 +140,12 @@ impl Surface {
         Ok(surface)
     }
 
-    /// How many points there are; at least [`Surface::MIN_POINTS`].
+    /// The number of points, at least [`Surface::MIN_POINTS`].
     pub fn len(&self) -> usize {
         self.points.len()
     }
 
-    /// Never: a surface has points.
+    /// Always false, since a surface has points.
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
@@ -157,20 +160,20 @@ impl Surface {
         &self.normals
     }
 
-    /// For each point its index in the cloud that it came from, ascending.
+    /// The index of each point in the cloud that the surface was made of, ascending.
     pub fn source(&self) -> &[usize] {
         &self.source
     }
 
-    /// The index of the points that all planes share, built by the first call. `None` where there
-    /// are more points than it holds, [`u32::MAX`].
+    /// The search tree of the points, built by the first call. `None` for more than [`u32::MAX`] points,
+    /// which it cannot hold.
     pub fn neighbors(&self) -> Option<&Neighbors> {
         (self.neighbors)
             .get_or_init(|| Neighbors::new(&self.points).map(Arc::new))
             .as_deref()
     }
 
-    /// How many normals face away from `viewpoint` (Eq. 11 fails for them).
+    /// The number of normals that face away from `viewpoint`, for which Eq. 11 fails.
     pub fn facing_away(&self, viewpoint: DVec3) -> usize {
         let faces_away = |(p, n): (&DVec3, &DVec3)| n.dot(viewpoint - *p) < 0.0;
         self.points

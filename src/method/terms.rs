@@ -1,8 +1,8 @@
-//! What each candidate plane's score is made of (Eq. 12–15): n, ΣD and ΣΞ.
+//! The terms of each candidate plane's score (Eq. 12–15): n, ΣD and ΣΞ.
 
 use glam::DVec3;
 
-use super::partners::{Ordered, Take};
+use super::partners::{OrderedSurface, PartnerSink};
 use super::{CandidateGrid, Surface};
 use crate::geometry::{Plane, Unit};
 use crate::parallel::{Cancelled, Watch, map_pieces};
@@ -11,7 +11,7 @@ use crate::parallel::{Cancelled, Watch, map_pieces};
 /// aggregation follows from them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PlaneTerm {
-    /// How many points have a visible symmetric partner.
+    /// n: the number of points that have a visible symmetric partner.
     pub partners: usize,
     /// ΣD: the sum over them of d, the distance from the reflected point to its nearest neighbor,
     /// in centimeters.
@@ -21,26 +21,26 @@ pub struct PlaneTerm {
     pub angle_sum_rad: f64,
 }
 
-/// The terms of all u² planes, g-major.
+/// The terms of all u² candidate planes, g-major.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaneTerms {
     /// The planes.
     pub grid: CandidateGrid,
-    /// One a plane, in the grid's order.
+    /// One for each plane, in the grid's order.
     pub terms: Vec<PlaneTerm>,
-    /// How many points the surface has: what the partner fraction is a fraction of.
+    /// The number of points of the surface, which the partner fraction is a fraction of.
     pub points: usize,
 }
 
-/// Points that are summed in one go. Part of what makes a result repeat: the sums are added in this
-/// order whatever the number of threads.
+/// Points of a piece of work. The sums of the pieces are added in a fixed order, so that the result is the
+/// same to the bit on any number of threads; another size would give other last digits.
 pub(super) const PIECE: usize = 2048;
 
 /// Computes every candidate plane's terms on `surface`, for planes through `center`, seen from
 /// `viewpoint` (both in the surface's unit and frame).
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
+/// Returns [`Cancelled`] if the watch cancels the work.
 pub fn plane_terms(
     surface: &Surface,
     unit: Unit,
@@ -63,10 +63,11 @@ pub fn plane_terms(
     })
 }
 
-/// Computes the terms of any planes, in their order; everything in the surface's unit and frame.
+/// Computes the terms of any planes, in their order. Planes and viewpoint are in the surface's unit and
+/// frame.
 ///
 /// # Errors
-/// [`Cancelled`] when the watch calls the work off.
+/// Returns [`Cancelled`] if the watch cancels the work.
 pub fn terms_of_planes(
     surface: &Surface,
     unit: Unit,
@@ -74,11 +75,11 @@ pub fn terms_of_planes(
     viewpoint: DVec3,
     watch: &dyn Watch,
 ) -> Result<Vec<PlaneTerm>, Cancelled> {
-    let Some(ordered) = Ordered::new(surface) else {
+    let Some(ordered) = OrderedSurface::new(surface) else {
         return Ok(vec![PlaneTerm::default(); planes.len()]);
     };
-    // One run of pieces over all planes' points, plane after plane, so that many cores find work
-    // even where the planes are few.
+    // One sequence of pieces over the points of all planes, plane after plane, so that there is work for
+    // many cores even if the planes are few.
     let pieces_a_plane = surface.len().div_ceil(PIECE);
     let partial = map_pieces(planes.len() * pieces_a_plane, 1, watch, |range| {
         let (plane, piece) = (range.start / pieces_a_plane, range.start % pieces_a_plane);
@@ -99,15 +100,15 @@ pub fn terms_of_planes(
     Ok(partial.chunks(pieces_a_plane).map(whole).collect())
 }
 
-/// Sums up what is found, point after point.
+/// Adds up the contributions of the points, one after the other.
 struct Sums {
     unit_in_cm: f64,
     term: PlaneTerm,
 }
 
-impl Take for Sums {
+impl PartnerSink for Sums {
     #[inline]
-    fn take(&mut self, points: &[u32], _partners: &[u32], distances: &[f64], angles_rad: &[f64]) {
+    fn accept(&mut self, points: &[u32], _partners: &[u32], distances: &[f64], angles_rad: &[f64]) {
         self.term.partners += points.len();
         for (distance, angle_rad) in distances.iter().zip(angles_rad) {
             self.term.distance_sum_cm += distance * self.unit_in_cm;

@@ -1,11 +1,11 @@
-//! Which points have a partner that the camera could see (§ 2.5, Eq. 11–14).
+//! The visibility of a point's partner from the viewpoint (§ 2.5, Eq. 11–14).
 
 use glam::DVec3;
 
 use crate::geometry::Plane;
 
-/// Whether the mirror partner of a surface point would be visible from `viewpoint`: whether the
-/// reflected normal faces it from the reflected point (the negation of Eq. 14).
+/// Checks whether the mirror partner of a surface point would be visible from `viewpoint`, which means
+/// that the reflected normal faces it from the reflected point (the negation of Eq. 14).
 pub fn has_visible_partner(plane: &Plane, point: DVec3, normal: DVec3, viewpoint: DVec3) -> bool {
     plane
         .reflect_direction(normal)
@@ -13,20 +13,20 @@ pub fn has_visible_partner(plane: &Plane, point: DVec3, normal: DVec3, viewpoint
         > 0.0
 }
 
-/// Points that a camera's view of one fruit may hold behind the camera before the cloud counts as
-/// surrounding it: strays happen.
+/// The share of points that may lie behind the camera, as strays do, before the cloud counts as surrounding
+/// it.
 const STRAY_SHARE: f64 = 0.01;
 
-/// Whether `viewpoint` lies inside the cloud: no direction has all points (but for a stray
-/// hundredth) ahead. Then no single camera there can have seen them.
+/// Checks whether `viewpoint` lies inside the cloud: no direction from there has all points ahead, but for
+/// one in a hundred that may be stray. No single camera can have seen such a cloud from there.
 pub fn is_viewpoint_inside(points: &[DVec3], viewpoint: DVec3) -> bool {
     if points.is_empty() {
         return false;
     }
     let allowed = (points.len() as f64 * STRAY_SHARE) as usize;
-    // Walk towards the point of the directions' convex hull that is nearest to the viewpoint
-    // (Gilbert): while that point is not the viewpoint itself, it is a direction with all points
-    // ahead, or soon becomes one. From a camera outside the first or second step settles it.
+    // Gilbert's algorithm: approach the point of the convex hull of all directions that is nearest to
+    // zero. Unless zero lies within the hull, that point is a direction with all points ahead. From a
+    // camera outside the cloud the first or second step finds one.
     let toward = |p: &DVec3| (*p - viewpoint).try_normalize();
     let mut ahead = points.iter().filter_map(toward).sum::<DVec3>() / points.len() as f64;
     for _ in 0..64 {

@@ -1,9 +1,9 @@
-//! A depth camera at the origin: what it can see of a mesh, and the errors it makes.
+//! A depth camera at the origin: the part of a mesh that it sees, and its errors of measurement.
 //!
 //! The model is a pinhole with a z-buffer. Each pixel measures one depth; the errors are those that
-//! trouble a symmetry search: noise that grows with distance, depth in steps, and holes where the
+//! impair a search for symmetry: noise that grows with distance, depth in steps, and holes where the
 //! surface turns away or at random. Errors of neighboring pixels are independent, and no pixel mixes
-//! the depths on both sides of an edge; a real camera is less kind in both.
+//! the depths on both sides of an edge; a real camera is worse in both.
 
 use glam::{DVec2, DVec3, Vec3};
 use rand::{Rng, RngExt};
@@ -17,11 +17,11 @@ use super::mesh::Mesh;
 /// The working range of an Intel `RealSense` SR300, the paper's camera (§ 2.1).
 pub(super) const SR300_RANGE_CM: (f64, f64) = (20.0, 150.0);
 
-/// The distance at which the settings state the noise, about where a picker's camera works.
+/// The distance at which the settings state the noise: about the working distance of a harvesting robot.
 const NOISE_STATED_AT_CM: f64 = 40.0;
 
-/// The standard deviation of a depth measured at `depth_cm`, given that at 40 cm. It grows with the
-/// square of the distance, as that of any camera that triangulates.
+/// Computes the standard deviation of a depth measured at `depth_cm` from that at 40 cm. It grows with the
+/// square of the distance, as for every camera that triangulates.
 pub(super) fn noise_sd_cm(at_40_cm: f64, depth_cm: f64) -> f64 {
     at_40_cm * (depth_cm / NOISE_STATED_AT_CM).powi(2)
 }
@@ -49,8 +49,8 @@ pub struct DepthCamera {
     /// Depths are whole multiples of this, 0 to 10 cm; 0 for no steps. The default is the millimeter
     /// in which depth images are mostly stored; the sensor itself counts eighths of it.
     pub step_cm: f64,
-    /// Between the ray and the surface's normal, the angle from which pixels begin to fail, 0 to
-    /// 90°. The share that fails rises as the angle's cosine falls, to all at 90°.
+    /// The angle between the ray and the surface's normal from which pixels begin to fail, 0 to 90°. The
+    /// share that fails rises as the angle's cosine falls, and reaches all at 90°.
     pub grazing_deg: f64,
     /// The share of all other pixels that fail at random, 0 to 0.99.
     pub dropout: f64,
@@ -72,7 +72,7 @@ impl Default for DepthCamera {
     }
 }
 
-/// What the camera measured in one pixel.
+/// The measurement of one pixel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measured {
     pub(super) point_in_camera: DVec3,
@@ -84,18 +84,18 @@ pub(super) struct Measured {
 #[derive(Debug, Clone)]
 pub(super) struct DepthImage {
     width: usize,
-    /// Infinite where there is nothing.
+    /// The depth of each pixel; infinite without a surface.
     pub(super) depths_cm: Vec<f64>,
     triangles: Vec<u32>,
 }
 
 impl DepthImage {
-    /// How many pixels show anything.
+    /// The number of pixels that show a surface.
     pub(super) fn covered(&self) -> usize {
         self.depths_cm.iter().filter(|d| d.is_finite()).count()
     }
 
-    /// Forgets all outside a rectangle of pixels.
+    /// Clears all pixels outside a rectangle.
     pub(super) fn crop(&mut self, (low, high): (DVec2, DVec2)) {
         for place in 0..self.depths_cm.len() {
             let pixel = self.pixel(place);
@@ -105,12 +105,12 @@ impl DepthImage {
         }
     }
 
-    /// The pixels (their places in the rows) that show something.
+    /// The indices of the pixels that show a surface, row by row.
     fn filled(&self) -> impl Iterator<Item = usize> {
         (0..self.depths_cm.len()).filter(|&i| self.depths_cm[i].is_finite())
     }
 
-    /// The corners of the smallest rectangle of pixels that holds all that is seen.
+    /// The corners of the smallest rectangle of pixels that holds all surfaces.
     pub(super) fn bounds(&self) -> (DVec2, DVec2) {
         let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         self.filled().fold(none, |(low, high), place| {
@@ -133,8 +133,8 @@ struct Projected {
 }
 
 impl Projected {
-    /// The inverse depth at a pixel and each corner's share in it, or nothing where the pixel is
-    /// outside. Edges belong to both neighbors: the z-buffer settles which of the two is kept.
+    /// Computes the inverse depth at a pixel and each corner's share in it; `None` if the pixel is outside.
+    /// Edges belong to both neighbors, and the z-buffer keeps one of the two.
     fn at(&self, pixel: DVec2) -> Option<(f64, [f64; 3])> {
         let [a, b, c] = self.corners;
         let shares = [
@@ -155,7 +155,7 @@ impl Projected {
 }
 
 impl DepthCamera {
-    /// Refuses what makes no sense.
+    /// Checks the settings.
     pub(super) fn check(&self) -> Result<(), SimulateError> {
         const PIXELS: (f64, f64) = (16.0, 4096.0);
         within("width_px", self.width_px.into(), PIXELS, "16 to 4096")?;
@@ -180,7 +180,7 @@ impl DepthCamera {
         DVec2::new(f64::from(self.width_px - 1), f64::from(self.height_px - 1)) / 2.0
     }
 
-    /// Half the width and half the height of what is seen at a depth of 1.
+    /// Half the width and half the height of the view at a depth of 1.
     pub(super) fn half_view(&self) -> DVec2 {
         self.middle() / self.focal_px
     }
@@ -192,7 +192,8 @@ impl DepthCamera {
 
     fn project(&self, mesh: &Mesh, triangle: u32) -> Option<Projected> {
         let corners = mesh.triangles[triangle as usize].map(|i| mesh.positions[i as usize]);
-        // What reaches behind the camera cannot be projected; it is far nearer than any depth camera sees.
+        // A triangle that reaches behind the camera cannot be projected, and is far nearer than any depth
+        // camera sees.
         if corners.iter().any(|p| p.z < 1e-3) {
             return None;
         }
@@ -205,7 +206,7 @@ impl DepthCamera {
         })
     }
 
-    /// The nearest surface of the mesh in each pixel, free of errors.
+    /// Renders the nearest surface of the mesh in each pixel, without errors.
     pub(super) fn look(&self, mesh: &Mesh) -> DepthImage {
         let (width, height) = (self.width_px as usize, self.height_px as usize);
         let mut image = DepthImage {
@@ -217,7 +218,7 @@ impl DepthCamera {
         image
     }
 
-    /// Adds what was appended to a mesh, the triangles from `first` on, to the image of those before.
+    /// Adds the triangles from `first` on, which were appended to the mesh, to the image of those before.
     pub(super) fn look_on(&self, mesh: &Mesh, first: usize, image: &mut DepthImage) {
         self.rasterize(mesh, first, |place, inverse, triangle| {
             if inverse * image.depths_cm[place] > 1.0 {
@@ -227,7 +228,7 @@ impl DepthCamera {
         });
     }
 
-    /// How many pixels of an image the mesh would hide.
+    /// Counts the pixels of an image that the mesh would hide.
     pub(super) fn count_hidden(&self, mesh: &Mesh, image: &DepthImage) -> usize {
         let mut hidden = vec![false; image.depths_cm.len()];
         self.rasterize(mesh, 0, |place, inverse, _| {
@@ -237,8 +238,8 @@ impl DepthCamera {
         hidden.into_iter().filter(|&h| h).count()
     }
 
-    /// Calls `visit` with each pixel that a triangle covers (its place in the rows), the inverse
-    /// depth there, and the triangle; a pixel comes as often as surfaces lie behind each other.
+    /// Calls `visit` with the index of each pixel that a triangle covers, the inverse depth there, and the
+    /// triangle. A pixel is visited once for each surface that covers it.
     fn rasterize(&self, mesh: &Mesh, first: usize, mut visit: impl FnMut(usize, f64, u32)) {
         let size = DVec2::new(self.width_px.into(), self.height_px.into());
         for triangle in first as u32..mesh.triangles.len() as u32 {
@@ -246,7 +247,7 @@ impl DepthCamera {
                 continue;
             };
             let [a, b, c] = flat.corners;
-            // Clamped to the image before they become whole: an empty range where it is outside.
+            // Clamped to the image before they become whole: the range is empty outside of it.
             let low = a.min(b).min(c).ceil().clamp(DVec2::ZERO, size);
             let high = (a.max(b).max(c).floor() + 1.0).clamp(DVec2::ZERO, size);
             for row in low.y as usize..high.y as usize {
@@ -259,13 +260,13 @@ impl DepthCamera {
         }
     }
 
-    /// What the camera makes of the image: a point for each pixel that works, row by row.
+    /// Measures the image: a point for each pixel that does not fail, row by row.
     pub(super) fn measure(&self, mesh: &Mesh, image: &DepthImage, rng: &mut impl Rng) -> Vec<Measured> {
         image
             .filled()
             .filter_map(|place| {
-                // Every pixel takes its three numbers, used or not: a changed setting then changes
-                // what it is about and leaves the other pixels' luck alone.
+                // Every pixel draws three random numbers, used or not, so that a changed setting leaves
+                // the random numbers of the other pixels as they were.
                 let luck: [f64; 2] = rng.random();
                 let error: f64 = rng.sample(StandardNormal);
                 self.measure_pixel(mesh, image, place, luck, error)
@@ -300,7 +301,7 @@ impl DepthCamera {
         })
     }
 
-    /// The depth that comes out of the camera, for an error in standard deviations.
+    /// Computes the measured depth from an error in standard deviations.
     fn depth_read_cm(&self, depth_cm: f64, error: f64) -> f64 {
         let noisy_cm = depth_cm + error * noise_sd_cm(self.noise_cm, depth_cm);
         if self.step_cm > 0.0 {

@@ -23,12 +23,12 @@ pub struct EllipsoidSettings {
     pub half_axes_cm: DVec3,
     /// The center (x₀, y₀, z₀ of Eq. 1); its depth z must be in the camera's range, 20 to 150 cm.
     pub center_cm: DVec3,
-    /// How many visible points there will be, exactly: 1 to 10 million.
+    /// The exact number of visible points, 1 to 10 million.
     pub points: usize,
     /// Standard deviation of the depth at 40 cm, 0 to 10 cm; it grows with the square of the
     /// distance as the depth camera's does. 0 puts every point on the surface.
     pub noise_cm: f64,
-    /// Decides where the points fall.
+    /// The seed of the points' positions and noise.
     pub seed: u64,
 }
 
@@ -44,18 +44,18 @@ impl Default for EllipsoidSettings {
     }
 }
 
-/// Draws for each wanted point after which the search is given up. The paper's ellipsoid needs three.
+/// The draws for each wanted point after which the search is given up. The paper's ellipsoid needs three.
 const DRAWS_PER_POINT: usize = 2000;
 
 impl EllipsoidSettings {
-    /// Points spread evenly over the area of the surface, of which those that face the camera are
-    /// kept: `⟨n, p_v − p⟩ > 0` (Eq. 11), which on a convex body is the same as being seen.
+    /// Simulates points spread evenly over the area of the surface, of which those that face the camera
+    /// are kept: `⟨n, p_v − p⟩ > 0` (Eq. 11), which on a convex body is the same as being seen.
     ///
-    /// The cloud is in centimeters and holds the surface's own normals; where there is noise, those
-    /// of the points before it.
+    /// The cloud is in centimeters and holds the surface's own normals, even for points moved by noise.
     ///
     /// # Errors
-    /// Where a setting makes no sense, the viewpoint is inside, or too little of the surface faces it.
+    /// Returns an error if a setting is out of range, the viewpoint is inside, or too little of the surface
+    /// faces it.
     pub fn simulate(&self) -> Result<Simulated, SimulateError> {
         self.check()?;
         let mut rng = stream(self.seed, Stream::Shape);
@@ -99,7 +99,7 @@ impl EllipsoidSettings {
         })
     }
 
-    /// The point with the camera's error: its depth is off, so it moves along its ray.
+    /// Adds the camera's error to a point: an error of depth moves it along its ray.
     fn measured(&self, point: DVec3, noise: &mut impl Rng) -> DVec3 {
         if self.noise_cm == 0.0 || point.z <= 0.0 {
             return point;
@@ -158,7 +158,8 @@ impl EllipsoidSettings {
         }
     }
 
-    /// The one axis of revolution, if there is one, and what the half-axes mean for "the" true axis.
+    /// The axis of revolution, if there is exactly one, and a note on what the half-axes mean for "the" true
+    /// axis.
     #[expect(clippy::float_cmp, reason = "half-axes are equal where they were set equal")]
     fn uniqueness(&self) -> (Option<DVec3>, &'static str) {
         let DVec3 { x, y, z } = self.half_axes_cm;
@@ -193,8 +194,8 @@ impl EllipsoidSettings {
     }
 }
 
-/// A direction without preference. By throwing away what falls outside the ball rather than by
-/// sines and logarithms, whose last digit differs between platforms.
+/// Draws a direction, all alike likely. Points outside the unit ball are rejected, since sines and
+/// logarithms differ between platforms in their last digit.
 fn unit_vector(rng: &mut impl Rng) -> DVec3 {
     loop {
         let v = DVec3::from_array(rng.random::<[f64; 3]>()) * 2.0 - 1.0;

@@ -1,18 +1,18 @@
-//! What makes a simulation impossible, and the checks that find it out.
+//! The errors of a simulation, and the checks of its settings.
 
 use glam::DVec3;
 
-/// Why no cloud was simulated.
+/// Why a cloud could not be simulated.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SimulateError {
-    /// A setting is not a number, or outside the values that make sense.
+    /// A setting is not a number or out of range.
     #[error("{name} is {value}; it must be {allowed}")]
     Setting {
-        /// The setting, as its field is called.
+        /// The name of the setting's field.
         name: &'static str,
-        /// What it was.
+        /// Its value.
         value: f64,
-        /// The values that would do, in words.
+        /// The allowed values, in words.
         allowed: &'static str,
     },
     /// The viewpoint is inside the fruit or on it, where no point of the surface faces it.
@@ -33,7 +33,7 @@ pub enum SimulateError {
     NothingVisible,
 }
 
-/// Refuses a value outside `low..=high`, NaN included.
+/// Returns an error for a value outside `low..=high`, NaN included.
 pub(super) fn within(
     name: &'static str,
     value: f64,
@@ -47,7 +47,7 @@ pub(super) fn within(
     }
 }
 
-/// Refuses a vector with a component outside `low..=high`, NaN included.
+/// Returns an error for a vector with a component outside `low..=high`, NaN included.
 pub(super) fn each_within(
     name: &'static str,
     value: DVec3,

@@ -1,4 +1,4 @@
-//! Surfaces as fine triangles, each corner with a normal, a color and what it belongs to.
+//! Surfaces as fine triangles, whose corners have a normal, a color and a label.
 
 use glam::{DVec3, Vec3};
 
@@ -13,16 +13,16 @@ pub(super) struct Vertex {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Mesh {
     pub(super) positions: Vec<DVec3>,
-    /// Of unit length once [`Mesh::finish`] was called; which side they point to means nothing.
+    /// Of unit length after [`Mesh::finish`]; they may point to either side.
     pub(super) normals: Vec<DVec3>,
     pub(super) colors: Vec<Vec3>,
-    /// A label a corner; the three of a triangle agree.
+    /// A label for each corner; the three of a triangle are equal.
     pub(super) labels: Vec<i32>,
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
 impl Mesh {
-    /// A closed skin over `rings` rings of `around` corners, with a single corner at either end.
+    /// Makes a closed skin over `rings` rings of `around` corners, with a single corner at either end.
     pub(super) fn skin(
         label: i32,
         (rings, around): (u32, u32),
@@ -56,7 +56,7 @@ impl Mesh {
         mesh.finish()
     }
 
-    /// An open sheet of `columns` by `rows` corners.
+    /// Makes an open sheet of `columns` by `rows` corners.
     pub(super) fn sheet(
         label: i32,
         (columns, rows): (u32, u32),
@@ -113,7 +113,7 @@ impl Mesh {
             .extend(other.triangles.iter().map(|t| t.map(|i| i + offset)));
     }
 
-    /// The same surface moved rigidly.
+    /// Moves the surface rigidly.
     pub(super) fn moved(mut self, rotation: glam::DMat3, translation: DVec3) -> Self {
         for p in &mut self.positions {
             *p = rotation * *p + translation;

@@ -1,4 +1,4 @@
-//! What is known about a simulated cloud: its true axis, its pose and every setting that made it.
+//! The truth about a simulated cloud: its axis, its pose and every setting that made it.
 
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,7 @@ use crate::geometry::{Cloud, Unit};
 pub struct Simulated {
     /// The points that the camera saw, in the truth's unit and the camera's frame.
     pub cloud: Cloud,
-    /// What the points cannot tell.
+    /// The truth about them.
     pub truth: Truth,
 }
 
@@ -24,7 +24,7 @@ pub struct TrueAxis {
     pub direction: DVec3,
 }
 
-/// Where the fruit is: `point_in_camera = rotation · point_in_fruit + translation`.
+/// The pose of the fruit: `point_in_camera = rotation · point_in_fruit + translation`.
 ///
 /// The fruit's frame has its origin in the fruit's center and its y axis towards the stem end; an
 /// upright fruit of zero spin has x to the image's right, y up and z towards the camera.
@@ -37,7 +37,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The pose with this rotation and this center.
+    /// Makes a pose of a rotation and the fruit's center.
     pub fn new(camera_from_fruit: DMat3, translation: DVec3) -> Self {
         Self {
             rotation: camera_from_fruit.transpose().to_cols_array_2d(),
@@ -62,7 +62,7 @@ pub enum Settings {
     Pepper(Box<PepperSettings>),
 }
 
-/// All that is known of a simulated cloud; what a `.truth.json` file holds.
+/// The truth about a simulated cloud: the content of a `.truth.json` file.
 ///
 /// Lengths are in [`Truth::unit`], the cloud's own, except in the settings, whose names say `_cm`.
 /// In JSON the settings are two fields: `kind` (`"ellipsoid"` or `"pepper"`) and `settings`.
@@ -81,18 +81,18 @@ pub struct Truth {
     /// The axis about which the shape is a solid of revolution, where there is exactly one. Every
     /// plane that holds it is a mirror plane.
     pub revolution_axis: Option<DVec3>,
-    /// What must be known before an error against [`Truth::axis`] is believed, in words.
+    /// A caveat about errors against [`Truth::axis`], in words.
     pub note: Option<String>,
     /// The fruit's center. A pepper's is the middle of its axis between the level of the stem end's
     /// shoulders and that of the blossom end; an ellipsoid's is its own.
     pub center: DVec3,
-    /// Where the axis leaves the fruit at the stem end: for a pepper at the level of its shoulders,
+    /// The point where the axis leaves the fruit at the stem end: for a pepper at the level of its shoulders,
     /// above the floor of the dimple.
     pub stem_end: DVec3,
-    /// Where the axis leaves the fruit at the other end: for a pepper at the level of its lowest
+    /// The point where the axis leaves the fruit at the other end: for a pepper at the level of its lowest
     /// lobes, below the blossom end's dimple.
     pub blossom_end: DVec3,
-    /// Where the fruit is and how it is turned.
+    /// The position and rotation of the fruit.
     pub pose: Pose,
     /// The viewpoint `p_v`: the camera, the origin of the frame.
     pub viewpoint: DVec3,
@@ -100,7 +100,7 @@ pub struct Truth {
     pub without_peduncle: bool,
     /// The fraction of the fruit's and the peduncle's pixels that a leaf hides, measured; `None` without a leaf.
     pub hidden_by_leaf: Option<f64>,
-    /// What was simulated, and with which settings.
+    /// The kind of simulation and its settings.
     #[serde(flatten)]
     pub settings: Settings,
 }
@@ -109,7 +109,7 @@ impl Truth {
     /// The name and version of the format.
     pub const SCHEMA: &'static str = "axiscope.truth/1";
 
-    /// The same truth with its lengths in another unit. The settings stay in centimeters.
+    /// Converts all lengths to another unit, except for the settings, which stay in centimeters.
     #[must_use]
     pub fn in_unit(mut self, unit: Unit) -> Self {
         let scale = |length: DVec3| rescale(length, self.unit, unit);
@@ -125,7 +125,7 @@ impl Truth {
 }
 
 impl Simulated {
-    /// The same points and truth in another unit.
+    /// Converts points and truth to another unit.
     ///
     /// # Panics
     /// Never: the columns keep their lengths.
@@ -154,8 +154,8 @@ impl Simulated {
         }
     }
 
-    /// The paper's second variant (§ 3.2): the same view with the peduncle's points removed. What is
-    /// known stays as it is, but for the flag.
+    /// Returns the same view with the peduncle's points removed, the paper's second variant (§ 3.2). The truth
+    /// stays the same, except for its flag.
     #[must_use]
     pub fn without_peduncle(&self) -> Self {
         let cloud = match self.cloud.labels() {
@@ -177,8 +177,8 @@ impl Simulated {
     }
 }
 
-/// Why a column always fits: simulated points are at most meters away, finite in any unit, so none is
-/// left out on the way.
+/// The reason why a column always fits: simulated points are at most meters away and thus finite in any
+/// unit, so none is left out.
 const LENGTHS: &str = "a column keeps its length";
 
 fn rescale(length: DVec3, from: Unit, to: Unit) -> DVec3 {

@@ -12,7 +12,7 @@ use super::scene::{SceneSettings, build_bare_scene, build_scene, framed_points};
 use super::shown::ShownPoints;
 use super::style::Style;
 use crate::geometry::Plane;
-use crate::method::{Analysis, AxisEstimate, AxisSource, PlaneDetail, plane_detail, symmetry_axis};
+use crate::method::{Analysis, AxisEstimate, PlaneDetail, plane_detail};
 use crate::parallel::{Cancelled, Watch};
 use crate::render::{Color, Scene};
 
@@ -40,12 +40,7 @@ impl PlaneView {
         known: Option<Arc<PlaneDetail>>,
         watch: &dyn Watch,
     ) -> Result<Self, Cancelled> {
-        let (center, params) = (analysis.center, &analysis.params);
-        let normal = analysis.planes.grid.candidate(index).normal;
-        let plane = Plane {
-            point: center,
-            normal,
-        };
+        let (plane, params) = (analysis.plane(index), &analysis.params);
         let detail = match known {
             Some(detail) => detail,
             None => Arc::new(plane_detail(
@@ -56,17 +51,11 @@ impl PlaneView {
                 watch,
             )?),
         };
-        let axis = symmetry_axis(normal, center, params.viewpoint).ok();
         Ok(Self {
             index,
             plane,
             detail,
-            axis: axis.map(|direction| AxisEstimate {
-                source: AxisSource::SymmetryPlane,
-                origin: center,
-                direction,
-                confidence: None,
-            }),
+            axis: analysis.axis_of(index).ok(),
         })
     }
 }

@@ -57,10 +57,7 @@ fn what_is_written_is_what_the_schema_says() {
         store.edit(judgment.clone(), NOW).unwrap();
         let bytes = disk.read_file(&axis_path(1)).unwrap();
         let read = Annotation::from_json(&bytes).unwrap();
-        assert_eq!(
-            (&read.judgment.ends, read.unit),
-            (&judgment.ends, Unit::Meter)
-        );
+        assert_eq!((&read.judgment.ends, read.unit), (&judgment.ends, Unit::Meter));
         let written: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
         let fields = written.as_object().unwrap();
         let properties = schema["properties"].as_object().unwrap();

@@ -8,6 +8,7 @@ mod annotating_format;
 mod geometry;
 mod method_choices;
 mod method_reference;
+mod method_stages;
 mod method_terms;
 mod peduncle;
 mod reading;

@@ -333,10 +333,7 @@ fn the_command_line_does_what_the_hand_would() {
     assert!((ends.angle_to_deg(set.ends().unwrap()) - 0.1).abs() < 1e-9);
     let moved = annotated(&cloud, "Ada", "--blossom 1,3,56 --flip");
     assert_eq!(moved.ends().unwrap().peduncle_base(), DVec3::new(1.0, 3.0, 56.0));
-    assert_eq!(
-        annotated(&cloud, "Ada", "--cannot-tell").judgment.ends,
-        None
-    );
+    assert_eq!(annotated(&cloud, "Ada", "--cannot-tell").judgment.ends, None);
     let from = annotated(&cloud, "Ada", "--start peduncle --turn lean=1 --blind");
     assert!(from.judgment.method == Method::FromPeduncle && !from.judgment.blind);
 

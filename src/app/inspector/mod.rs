@@ -26,7 +26,7 @@ use crate::view::ShownPoints;
 use details::Details;
 use key::AnalysisKey;
 use look::{Look, LookRequest};
-use stages::{Source, Stages, WalkError, Walked};
+use stages::{AnalyzeError, AnalyzedFruit, FruitStages, Source};
 
 /// A cloud that has been read and is still to be analyzed.
 type Arrival = (Source, Arc<Fruit>, Arc<ShownPoints>);
@@ -41,7 +41,7 @@ struct Pick {
 
 /// The jobs of the inspector, and what it remembers from frame to frame.
 pub(super) struct Inspector {
-    analyses: Lane<(Stages, Result<Walked, WalkError>)>,
+    analyses: Lane<(FruitStages, Result<AnalyzedFruit, AnalyzeError>)>,
     /// The input of the newest analysis that was asked for.
     asked: Option<AnalysisKey>,
     arrivals: (Sender<Arrival>, Receiver<Arrival>),

@@ -59,13 +59,7 @@ fn plane_and_axis(
     if state.true_axes.is_blind {
         return (None, None);
     }
-    let plane = state.analysis().zip(state.chosen_plane_index()).map(|(a, i)| {
-        let normal = a.planes.grid.candidate(i).normal;
-        crate::geometry::Plane {
-            point: a.center,
-            normal,
-        }
-    });
+    let plane = (state.analysis().zip(state.chosen_plane_index())).map(|(a, index)| a.plane(index));
     let axis = state.analysis().and_then(|a| a.axis.clone());
     (plane, axis)
 }

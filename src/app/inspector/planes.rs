@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::super::PlaneChoice;
 use crate::geometry::angle_between_lines_rad;
-use crate::method::{Analysis, symmetry_axis};
+use crate::method::Analysis;
 use crate::render::Color;
 use crate::view::value_color;
 
@@ -101,7 +101,7 @@ impl ScoreScale {
 impl Planes {
     /// Collects the planes of an analysis, whose axes are compared with `reference`, a direction of unit length.
     pub fn new(analysis: &Arc<Analysis>, reference: Option<DVec3>) -> Self {
-        let (ranking, params) = (&analysis.ranking, &analysis.params);
+        let ranking = &analysis.ranking;
         let grid = analysis.planes.grid;
         let mut ranks = vec![None; grid.plane_count()];
         for (place, &index) in ranking.order().iter().enumerate() {
@@ -109,7 +109,7 @@ impl Planes {
         }
         let facts = grid.candidates().enumerate().map(|(index, candidate)| {
             let term = analysis.planes.terms[index];
-            let axis = symmetry_axis(candidate.normal, analysis.center, params.viewpoint).ok();
+            let axis = analysis.axis_of(index).ok().map(|axis| axis.direction);
             let error = axis.zip(reference).map(|(a, r)| angle_between_lines_rad(a, r));
             PlaneFacts {
                 g: candidate.g,

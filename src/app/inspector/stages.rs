@@ -1,26 +1,19 @@
-//! The stages of the cloud that is looked at, each kept until something that it depends on changes.
+//! The cloud that is looked at, from its source to its analysis and the points that are shown.
 
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use glam::DVec3;
-
-use crate::fruit::Request;
+use crate::app::samples::Sample;
 use crate::fruit::{
-    CloudFile, Fruit, FruitError, PeduncleChoice, ReadError, ReadErrorKind, parse_cloud, read_cloud_watched,
+    CloudFile, Fruit, FruitError, PeduncleChoice, ReadError, ReadErrorKind, Request, parse_cloud,
+    read_cloud_watched,
 };
-use crate::geometry::Unit;
-use crate::method::{
-    Analysis, AnalysisError, CandidateGrid, CenterMethod, Filters, NormalSource, Observe, Params, PlaneTerms,
-    Stage, UsedPoints, find_center, plane_terms, used_points,
-};
+use crate::geometry::{Cloud, Unit};
+use crate::method::{Analysis, AnalysisError, Observe, Stages, Surface};
 use crate::parallel::Watch;
 use crate::view::ShownPoints;
 
-use crate::app::samples::Sample;
-
-/// Where a cloud comes from.
+/// The source of a cloud.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Source {
     /// A file on disk.
@@ -30,7 +23,7 @@ pub enum Source {
 }
 
 impl Source {
-    /// What to call it.
+    /// Its path, or the name of the sample.
     pub fn path(&self) -> &Path {
         match self {
             Self::File(path) => path,
@@ -62,52 +55,34 @@ struct FruitKey {
     peduncle: PeduncleChoice,
 }
 
-#[derive(Debug, Clone, PartialEq)]
-struct UsedKey {
-    fruit: FruitKey,
-    without_peduncle: bool,
-    filters: Filters,
-    normals: NormalSource,
-    k: NonZeroUsize,
-    viewpoint: DVec3,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-struct CenterKey {
-    used: UsedKey,
-    center: CenterMethod,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-struct PlanesKey {
-    used: UsedKey,
-    center: DVec3,
-    u: usize,
-}
-
 /// Points from which on a cloud is shown before it is analyzed.
 const LARGE: usize = 100_000;
 
-/// Grids that are kept, so that going back to one is at once.
-const KEPT_GRIDS: usize = 12;
-
-/// What was computed, under what it was computed from. A copy shares everything.
+/// The file, fruit and shown points of the cloud that is looked at, and the stages of its analysis: each
+/// kept until something that it depends on changes. A copy shares everything.
 #[derive(Debug, Clone, Default)]
-pub struct Stages {
+pub struct FruitStages {
     file: Option<(Source, Arc<CloudFile>)>,
     fruit: Option<(FruitKey, Arc<Fruit>)>,
-    used: Option<(UsedKey, Arc<UsedPoints>)>,
-    /// The points before their analysis, of which that shares what it can.
+    /// A fruit's cloud without the peduncle's points.
+    body: Option<(Arc<Fruit>, Cloud)>,
+    /// The stages of the fruit's cloud or of its body, whichever was analyzed last.
+    stages: Option<Stages>,
+    /// The points before their analysis, which shares with them what it can.
     bare: Option<Arc<ShownPoints>>,
-    shown: Option<(UsedKey, Arc<ShownPoints>)>,
-    center: Option<(CenterKey, DVec3)>,
-    /// The newest last.
-    planes: Vec<(PlanesKey, Arc<PlaneTerms>)>,
+    shown: Option<(ShownKey, Arc<ShownPoints>)>,
+}
+
+/// The surface whose points are shown, the same one and not an equal one, and the unit that was asked for.
+#[derive(Debug, Clone)]
+struct ShownKey {
+    surface: Arc<Surface>,
+    unit: Option<Unit>,
 }
 
 /// A cloud with its analysis.
 #[derive(Debug, Clone)]
-pub struct Walked {
+pub struct AnalyzedFruit {
     /// The cloud.
     pub fruit: Arc<Fruit>,
     /// Its points as they are shown.
@@ -116,9 +91,9 @@ pub struct Walked {
     pub analysis: Arc<Analysis>,
 }
 
-/// Why there is no analysis, and how far it came.
+/// Why there is no analysis.
 #[derive(Debug)]
-pub enum WalkError {
+pub enum AnalyzeError {
     /// The file gives no cloud.
     Fruit(FruitError),
     /// The cloud was read, and can be shown, but not analyzed.
@@ -127,90 +102,91 @@ pub enum WalkError {
         fruit: Arc<Fruit>,
         /// Its points.
         shown: Arc<ShownPoints>,
-        /// Why.
+        /// The cause.
         error: AnalysisError,
     },
-    /// The work was called off.
+    /// The work was cancelled.
     Cancelled,
 }
 
-impl Stages {
-    /// The analysis, where only scores have to be computed for it: τ, the aggregation and the partner
+impl FruitStages {
+    /// The analysis, if only scores have to be computed for it: τ, the aggregation and the partner
     /// fraction change nothing else.
-    pub fn at_once(&self, source: &Source, request: &Request) -> Option<Walked> {
-        let fruit_key = FruitKey::new(source, request);
-        let fruit = kept(self.fruit.as_ref(), &fruit_key)?;
-        let params = request.params(&fruit);
-        params.check().ok()?;
-        let used_key = UsedKey::new(fruit_key, request, &params);
-        let used = kept(self.used.as_ref(), &used_key)?;
-        let shown = kept(self.shown.as_ref(), &used_key)?;
-        let center = match params.center {
-            CenterMethod::Given(center) => center,
-            method => {
-                let key = CenterKey {
-                    used: used_key.clone(),
-                    center: method,
-                };
-                kept(self.center.as_ref(), &key)?
+    pub fn analyze_kept(&self, source: &Source, request: &Request) -> Option<AnalyzedFruit> {
+        let fruit = kept(self.fruit.as_ref(), &FruitKey::new(source, request))?;
+        let is_kept = |stages: &&Stages| {
+            if request.without_peduncle {
+                let body = self.body.as_ref().filter(|(of, _)| Arc::ptr_eq(of, &fruit));
+                body.is_some_and(|(_, body)| stages.cloud().shares_points_with(body))
+            } else {
+                stages.cloud().shares_points_with(fruit.cloud())
             }
         };
-        let planes = self.planes_of(&PlanesKey {
-            used: used_key,
-            center,
-            u: params.u,
-        })?;
-        Some(Walked {
-            analysis: Arc::new(Analysis::of_stages(&params, &used, center, planes)),
+        let stages = self.stages.as_ref().filter(is_kept)?;
+        let analysis = stages.analyze_kept(&request.params(&fruit))?;
+        let shown = kept(self.shown.as_ref(), &ShownKey::new(request, &analysis))?;
+        Some(AnalyzedFruit {
+            analysis: Arc::new(analysis),
             fruit,
             shown,
         })
     }
 
-    /// Walks the cloud through every stage whose result is not kept. The points of a large cloud are
-    /// handed to `arrived` as soon as they are read: their analysis takes a while.
+    /// Reads and analyzes a cloud, running every stage whose result is not kept. The points of a large
+    /// cloud are handed to `arrived` as soon as they are read, since their analysis takes a while.
     ///
     /// # Errors
-    /// Where the file gives no cloud, the cloud cannot be analyzed, or the work is called off.
-    pub fn walk(
+    /// Returns an error if the file gives no cloud, the cloud cannot be analyzed, or the work is
+    /// cancelled.
+    pub fn analyze(
         &mut self,
         source: &Source,
         request: &Request,
         observe: &dyn Observe,
         arrived: &dyn Fn(&Arc<Fruit>, Arc<ShownPoints>),
-    ) -> Result<Walked, WalkError> {
-        let fruit_key = FruitKey::new(source, request);
-        let is_new = kept(self.fruit.as_ref(), &fruit_key).is_none();
-        let fruit = self.fruit(&fruit_key, observe)?;
+    ) -> Result<AnalyzedFruit, AnalyzeError> {
+        let key = FruitKey::new(source, request);
+        let is_new = kept(self.fruit.as_ref(), &key).is_none();
+        let fruit = self.fruit(key, observe)?;
         if is_new && fruit.cloud().len() >= LARGE {
             arrived(&fruit, self.bare(&fruit));
         }
         if observe.is_cancelled() {
-            return Err(WalkError::Cancelled);
+            return Err(AnalyzeError::Cancelled);
         }
         let bare = self.bare(&fruit);
-        self.analyzed(fruit_key, &fruit, request, observe)
-            .map_err(|error| {
-                if error.is_cancelled() {
-                    return WalkError::Cancelled;
-                }
-                WalkError::Analysis {
+        let stages = self.stages(&fruit, request);
+        let analysis = match stages.analyze(&request.params(&fruit), observe) {
+            Ok(analysis) => Arc::new(analysis),
+            Err(error) if error.is_cancelled() => return Err(AnalyzeError::Cancelled),
+            Err(error) => {
+                return Err(AnalyzeError::Analysis {
                     shown: bare,
                     fruit,
                     error,
-                }
-            })
+                });
+            }
+        };
+        let key = ShownKey::new(request, &analysis);
+        let shown = kept(self.shown.as_ref(), &key)
+            .unwrap_or_else(|| Arc::new(bare.analyzed(fruit.cloud(), &analysis)));
+        self.shown = Some((key, shown.clone()));
+        Ok(AnalyzedFruit {
+            fruit,
+            shown,
+            analysis,
+        })
     }
 
-    fn fruit(&mut self, key: &FruitKey, watch: &dyn Watch) -> Result<Arc<Fruit>, WalkError> {
-        if let Some(fruit) = kept(self.fruit.as_ref(), key) {
+    fn fruit(&mut self, key: FruitKey, watch: &dyn Watch) -> Result<Arc<Fruit>, AnalyzeError> {
+        if let Some(fruit) = kept(self.fruit.as_ref(), &key) {
             return Ok(fruit);
         }
         let file = match kept(self.file.as_ref(), &key.source) {
             Some(file) => file,
             None => Arc::new(key.source.read(watch).map_err(|error| match error.kind {
-                ReadErrorKind::Cancelled => WalkError::Cancelled,
-                _ => WalkError::Fruit(error.into()),
+                ReadErrorKind::Cancelled => AnalyzeError::Cancelled,
+                _ => AnalyzeError::Fruit(error.into()),
             })?),
         };
         self.file = Some((key.source.clone(), file.clone()));
@@ -219,83 +195,28 @@ impl Stages {
             fruit = fruit.with_truth(key.source.path(), sample.truth());
         }
         let fruit = Arc::new(fruit);
-        self.fruit = Some((key.clone(), fruit.clone()));
+        self.fruit = Some((key, fruit.clone()));
         Ok(fruit)
     }
 
-    fn analyzed(
-        &mut self,
-        fruit_key: FruitKey,
-        fruit: &Arc<Fruit>,
-        request: &Request,
-        observe: &dyn Observe,
-    ) -> Result<Walked, AnalysisError> {
-        let params = request.params(fruit);
-        params.check()?;
-        let grid = CandidateGrid::new(params.u)?;
-        let used_key = UsedKey::new(fruit_key, request, &params);
-        let used = if let Some(used) = kept(self.used.as_ref(), &used_key) {
-            used
+    /// The stages of the cloud that is to be analyzed.
+    fn stages(&mut self, fruit: &Arc<Fruit>, request: &Request) -> &mut Stages {
+        let cloud = if request.without_peduncle {
+            self.body(fruit)
         } else {
-            let used = if request.without_peduncle {
-                used_points(&fruit.body(), &params, observe)?
-            } else {
-                used_points(fruit.cloud(), &params, observe)?
-            };
-            let used = Arc::new(used);
-            self.used = Some((used_key.clone(), used.clone()));
-            used
+            fruit.cloud().clone()
         };
-        observe.entered(Stage::Center);
-        let center_key = CenterKey {
-            used: used_key.clone(),
-            center: params.center,
-        };
-        let center = match kept(self.center.as_ref(), &center_key) {
-            Some(center) => center,
-            None => find_center(used.surface.points(), &params.center, observe)?,
-        };
-        // A center that is dragged about does not push out the one that took a search.
-        if !matches!(params.center, CenterMethod::Given(_)) {
-            self.center = Some((center_key, center));
-        }
-        let planes_key = PlanesKey {
-            used: used_key.clone(),
-            center,
-            u: params.u,
-        };
-        let planes = if let Some(planes) = self.planes_of(&planes_key) {
-            planes
-        } else {
-            observe.entered(Stage::PlaneTerms);
-            let terms = plane_terms(
-                &used.surface,
-                params.unit,
-                center,
-                params.viewpoint,
-                grid,
-                observe,
-            )?;
-            let terms = Arc::new(terms);
-            self.planes.retain(|(key, _)| key.used == used_key);
-            self.planes.push((planes_key, terms.clone()));
-            if self.planes.len() > KEPT_GRIDS {
-                self.planes.remove(0);
-            }
-            terms
-        };
-        observe.entered(Stage::Scores);
-        let analysis = Arc::new(Analysis::of_stages(&params, &used, center, planes));
-        let shown = match kept(self.shown.as_ref(), &used_key) {
-            Some(shown) => shown,
-            None => Arc::new(self.bare(fruit).analyzed(fruit.cloud(), &analysis)),
-        };
-        self.shown = Some((used_key, shown.clone()));
-        Ok(Walked {
-            fruit: fruit.clone(),
-            shown,
-            analysis,
-        })
+        let is_same = |stages: &Stages| stages.cloud().shares_points_with(&cloud);
+        let kept = self.stages.take().filter(is_same);
+        self.stages.insert(kept.unwrap_or_else(|| Stages::new(cloud)))
+    }
+
+    fn body(&mut self, fruit: &Arc<Fruit>) -> Cloud {
+        let kept = self.body.take().filter(|(of, _)| Arc::ptr_eq(of, fruit));
+        let (_, body) = self
+            .body
+            .insert(kept.unwrap_or_else(|| (fruit.clone(), fruit.body())));
+        body.clone()
     }
 
     fn bare(&mut self, fruit: &Fruit) -> Arc<ShownPoints> {
@@ -307,11 +228,6 @@ impl Stages {
         let bare = Arc::new(ShownPoints::bare(fruit.cloud()));
         self.bare = Some(bare.clone());
         bare
-    }
-
-    fn planes_of(&self, key: &PlanesKey) -> Option<Arc<PlaneTerms>> {
-        let found = self.planes.iter().find(|(k, _)| k == key);
-        found.map(|(_, planes)| planes.clone())
     }
 }
 
@@ -325,21 +241,18 @@ impl FruitKey {
     }
 }
 
-impl UsedKey {
-    /// `params` are the request's, settled for the fruit.
-    fn new(mut fruit: FruitKey, request: &Request, params: &Params) -> Self {
-        if !request.without_peduncle {
-            // Where its points stay in, it does not matter which they are.
-            fruit.peduncle = PeduncleChoice::Auto;
-        }
+impl ShownKey {
+    fn new(request: &Request, analysis: &Analysis) -> Self {
         Self {
-            fruit,
-            without_peduncle: request.without_peduncle,
-            filters: params.filters,
-            normals: params.normals,
-            k: params.k,
-            viewpoint: params.viewpoint,
+            surface: analysis.surface.clone(),
+            unit: request.unit,
         }
+    }
+}
+
+impl PartialEq for ShownKey {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.surface, &other.surface) && self.unit == other.unit
     }
 }
 

@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::apply::{choice_of, step};
 use super::look::{Look, LookRequest, look};
 use super::navigate::{default_camera, framed_camera};
-use super::stages::{Source, Stages, WalkError, Walked};
+use super::stages::{AnalyzeError, AnalyzedFruit, FruitStages, Source};
 use super::{Inspector, Pick};
 use crate::app::context::Context;
 use crate::app::state::{PlaneChoice, State};
@@ -90,7 +90,7 @@ impl Inspector {
         self.asked.clone_from(&wanted);
         let Some(wanted) = wanted else { return };
         cx.state.was_cancelled = false;
-        if let Some(walked) = cx.stages.at_once(&wanted.source, &wanted.request) {
+        if let Some(walked) = cx.stages.analyze_kept(&wanted.source, &wanted.request) {
             self.analyses.cancel();
             self.accept(Ok(walked), cx);
             return;
@@ -106,7 +106,7 @@ impl Inspector {
                 let _ = arrivals.send((wanted.source.clone(), fruit.clone(), shown));
                 repaint();
             };
-            let result = stages.walk(&wanted.source, &wanted.request, watch, &arrived);
+            let result = stages.analyze(&wanted.source, &wanted.request, watch, &arrived);
             (stages, result)
         });
         if let Some(result) = self.analyses.take_within(PATIENCE) {
@@ -130,7 +130,7 @@ impl Inspector {
 
     fn take_analysis(
         &mut self,
-        result: Result<(Stages, Result<Walked, WalkError>), Crashed>,
+        result: Result<(FruitStages, Result<AnalyzedFruit, AnalyzeError>), Crashed>,
         cx: &mut Context,
     ) {
         match result {
@@ -149,10 +149,10 @@ impl Inspector {
         }
     }
 
-    fn accept(&mut self, result: Result<Walked, WalkError>, cx: &mut Context) {
+    fn accept(&mut self, result: Result<AnalyzedFruit, AnalyzeError>, cx: &mut Context) {
         match result {
             Ok(walked) => self.accept_walked(walked, cx),
-            Err(WalkError::Analysis { fruit, shown, error }) => {
+            Err(AnalyzeError::Analysis { fruit, shown, error }) => {
                 set_problem(&mut cx.state, Some(sentence(&error.to_string())));
                 cx.state.warnings.clone_from(&fruit.warnings);
                 self.forget_analysis(cx);
@@ -160,19 +160,19 @@ impl Inspector {
                 let name = cx.state.source().map(Source::name).unwrap_or_default();
                 cx.state.unanalyzed = Some((shown, Some(sentence(&format!("{name}: {error}")))));
             }
-            Err(WalkError::Fruit(error)) => {
+            Err(AnalyzeError::Fruit(error)) => {
                 set_problem(&mut cx.state, Some(sentence(&error.reason())));
                 self.forget_analysis(cx);
                 cx.state.true_axes.leave_subject();
                 // It begins with a file's name, whose letters stay as they are.
                 cx.say(true, format!("{error}."));
             }
-            Err(WalkError::Cancelled) => cx.state.was_cancelled = true,
+            Err(AnalyzeError::Cancelled) => cx.state.was_cancelled = true,
         }
         self.frame_if_new(&mut cx.state);
     }
 
-    fn accept_walked(&mut self, walked: Walked, cx: &mut Context) {
+    fn accept_walked(&mut self, walked: AnalyzedFruit, cx: &mut Context) {
         let state = &mut cx.state;
         set_problem(state, None);
         state.set_subject(&walked.fruit, &walked.shown);
@@ -311,7 +311,7 @@ fn set_problem(state: &mut State, problem: Option<String>) {
 }
 
 /// Keeps the direction of the plane in a new grid: chooses the plane whose normal is nearest to its own.
-fn keep_direction(state: &mut State, walked: &Walked) {
+fn keep_direction(state: &mut State, walked: &AnalyzedFruit) {
     let (PlaneChoice::At { .. }, Some(before)) = (state.settings.plane, state.analysis()) else {
         return;
     };

@@ -1,7 +1,7 @@
 //! The paper's two experiments on one cloud, side by side: with the peduncle and without it.
 
 use crate::app::inspector::key::AnalysisKey;
-use crate::app::inspector::stages::{Stages, WalkError};
+use crate::app::inspector::stages::{AnalyzeError, FruitStages};
 use crate::app::workers::JobWatch;
 use crate::evaluate::collect_references;
 use crate::fruit::Request;
@@ -24,24 +24,24 @@ pub struct Beside {
 
 impl Beside {
     /// Analyzes the cloud of a key both ways; `None` if the work is called off.
-    pub(super) fn compute(key: AnalysisKey, mut stages: Stages, watch: &JobWatch) -> Option<Self> {
+    pub(super) fn compute(key: AnalysisKey, mut stages: FruitStages, watch: &JobWatch) -> Option<Self> {
         let with = errors(&mut stages, &key, false, watch);
         let without = errors(&mut stages, &key, true, watch);
         (!watch.is_cancelled()).then_some(Self { with, without, key })
     }
 }
 
-fn errors(stages: &mut Stages, key: &AnalysisKey, without_peduncle: bool, watch: &JobWatch) -> Errors {
+fn errors(stages: &mut FruitStages, key: &AnalysisKey, without_peduncle: bool, watch: &JobWatch) -> Errors {
     let request = Request {
         without_peduncle,
         ..key.request.clone()
     };
     let walked = stages
-        .walk(&key.source, &request, watch, &|_, _| {})
+        .analyze(&key.source, &request, watch, &|_, _| {})
         .map_err(|error| match error {
-            WalkError::Fruit(error) => sentence(&error.reason()),
-            WalkError::Analysis { error, .. } => sentence(&error.to_string()),
-            WalkError::Cancelled => "It was called off.".into(),
+            AnalyzeError::Fruit(error) => sentence(&error.reason()),
+            AnalyzeError::Analysis { error, .. } => sentence(&error.to_string()),
+            AnalyzeError::Cancelled => "It was called off.".into(),
         })?;
     let (references, _) = collect_references(&walked.fruit, &request, &walked.analysis);
     let axis = walked.analysis.axis.as_ref().ok_or("There is no axis.")?;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::app::inspector::stages::Walked;
+use crate::app::inspector::stages::AnalyzedFruit;
 use crate::app::workers::JobWatch;
 use crate::geometry::PointSet;
 use crate::parallel::Cancelled;
@@ -29,7 +29,7 @@ impl Edit {
     /// Does the edit. `spacing` is the points' median spacing, if it is known.
     pub(super) fn run(
         self,
-        walked: &Walked,
+        walked: &AnalyzedFruit,
         from: Arc<PointSet>,
         spacing: Option<f64>,
         watch: &JobWatch,

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::app::inspector::stages::Walked;
+use crate::app::inspector::stages::AnalyzedFruit;
 use crate::app::state::State;
 use crate::app::tool::Tool;
 use crate::fruit::PeduncleChoice;
@@ -12,7 +12,7 @@ use crate::render::Scene;
 
 impl State {
     /// The cloud that is open, read and analyzed; `None` while another one is still shown.
-    pub fn current_walked(&self) -> Option<&Arc<Walked>> {
+    pub fn current_walked(&self) -> Option<&Arc<AnalyzedFruit>> {
         let path = self.source()?.path();
         self.walked
             .as_ref()

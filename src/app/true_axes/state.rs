@@ -12,7 +12,7 @@ use super::handles::{EditView, Handle};
 use crate::annotate::{
     Annotation, Author, CloudAgreement, CloudId, Ends, Judgment, NUDGES_DEG, NameError, Pivot, Role,
 };
-use crate::app::inspector::stages::Walked;
+use crate::app::inspector::stages::AnalyzedFruit;
 use crate::geometry::{Extent, Unit};
 use crate::method::AxisSource;
 use crate::render::{Camera, Scene};
@@ -317,7 +317,7 @@ impl TrueAxesState {
     }
 
     /// An analyzed cloud with the present annotations, which may be newer than those that were read with it.
-    pub(in crate::app) fn with_annotations(&self, mut walked: Walked) -> Walked {
+    pub(in crate::app) fn with_annotations(&self, mut walked: AnalyzedFruit) -> AnalyzedFruit {
         let file = &walked.fruit.file;
         let annotated = self.annotated.as_ref();
         let is_it = annotated.is_some_and(|(path, sha256)| *path == file.path && *sha256 == file.sha256);

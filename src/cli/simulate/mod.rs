@@ -1,4 +1,4 @@
-//! `axiscope simulate`: clouds with a known axis, and the truth beside them.
+//! `axiscope simulate`: clouds with a known axis, with the truth about each in a file beside it.
 
 mod pepper;
 
@@ -30,7 +30,7 @@ enum Shape {
     Pepper(Box<Pepper>),
 }
 
-/// Where clouds go, and how many.
+/// The number of the clouds, and their files.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 struct Output {
@@ -92,7 +92,7 @@ fn ellipsoids(args: &Ellipsoid) -> anyhow::Result<()> {
     let seeds = seeds(args.output.seed, args.output.count as usize);
     let mut jobs = Vec::new();
     for &z0 in &args.z0.0 {
-        // Several depths tell their clouds apart by it: ellipsoid_z025.0_000.
+        // With several depths, names state the depth: ellipsoid_z025.0_000.
         let depth = if args.z0.0.len() > 1 {
             format!("_z{z0:05.1}")
         } else {
@@ -134,7 +134,7 @@ fn peppers(args: &Pepper) -> anyhow::Result<()> {
     })
 }
 
-/// Simulates each job and writes it, one after the other: the same seed gives the same bytes.
+/// Simulates each job and writes it, one after the other. The same seed gives the same bytes.
 fn write_all<S>(
     output: &Output,
     shape: &str,
@@ -212,7 +212,7 @@ fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::R
     write_whole(&path.with_extension("truth.json"), json.as_bytes())
 }
 
-/// Writes a file under a name of its own and then renames it, so that nobody ever meets half of it.
+/// Writes a file under a temporary name and then renames it, so that no reader finds half of it.
 fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     let write = || -> std::io::Result<()> {
         let mut name = path.file_name().unwrap_or_default().to_os_string();

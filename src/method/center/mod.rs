@@ -1,4 +1,4 @@
-//! The fruit center p_c (§ 2.4, Eq. 3): both readings, a sphere's, or one given by hand.
+//! The fruit center p_c (§ 2.4, Eq. 3): by either reading, of the best sphere, or given by hand.
 //!
 //! As printed, Eq. 3 is the RMS *distance* of a random point to the cloud, which is least at the
 //! cloud's mean, the very point that the section rules out. Read as the RMS *error* of those
@@ -17,7 +17,7 @@ use crate::parallel::{Cancelled, Watch};
 pub use random_search::{RandomSearch, distance_deviation, rms_distance};
 pub use sphere::fit_sphere;
 
-/// How the fruit center is found.
+/// A method to find the fruit center.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum CenterMethod {
     /// The random point with the least RMS distance to the cloud: Eq. 3 as printed.
@@ -49,7 +49,7 @@ impl CenterMethod {
         }
     }
 
-    /// The random search, where the method has one.
+    /// The random search, if the method has one.
     pub fn search(&self) -> Option<RandomSearch> {
         match self {
             Self::MeanRms(search) | Self::Equidistant(search) => Some(*search),
@@ -61,10 +61,10 @@ impl CenterMethod {
 /// Why no center was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum CenterError {
-    /// The points do not bend: any radius fits.
+    /// The points lie in a plane, where a sphere of any radius fits.
     #[error("no sphere fits its points: they lie in a plane")]
     NoSphere,
-    /// The work was called off.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
@@ -72,7 +72,7 @@ pub enum CenterError {
 /// Finds the fruit center of `points`, in their unit and frame.
 ///
 /// # Errors
-/// Where no sphere fits, or the watch calls the work off.
+/// Returns an error if no sphere fits, or the watch cancels the work.
 pub fn find_center(points: &[DVec3], method: &CenterMethod, watch: &dyn Watch) -> Result<DVec3, CenterError> {
     match *method {
         CenterMethod::MeanRms(search) => Ok(search.least_rms_distance(points)),

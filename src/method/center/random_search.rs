@@ -10,15 +10,15 @@ use crate::geometry::Spread;
 use crate::parallel::map_pieces;
 use crate::parallel::{Cancelled, Watch};
 
-/// The random points that the center is picked from: normally distributed about the cloud's mean.
+/// The random points that the center is picked from, normally distributed about the cloud's mean.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RandomSearch {
-    /// How many.
+    /// Their number.
     pub count: usize,
-    /// Their standard deviation along each coordinate, in multiples of the cloud's own (its RMS
-    /// radius over √3).
+    /// Their standard deviation along each coordinate, in multiples of the cloud's (its RMS radius over
+    /// √3).
     pub spread: f64,
-    /// The seed. The same seed gives the same points on every machine.
+    /// The seed, which gives the same points on every machine.
     pub seed: u64,
 }
 
@@ -32,14 +32,13 @@ impl Default for RandomSearch {
     }
 }
 
-/// Points of the cloud that every random point is first tried on: enough to know a deviation to a
-/// few percent.
+/// Points of the cloud that every random point is first tried on. They tell a deviation to a few percent.
 const TRIAL_POINTS: usize = 512;
-/// One in so many random points is then tried on the whole cloud.
+/// The random points for each one that is then tried on the whole cloud.
 const TRIED_IN_FULL: usize = 20;
 
 impl RandomSearch {
-    /// The random points, in their order.
+    /// Draws the random points.
     fn points(&self, spread: &Spread) -> Vec<DVec3> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let sigma = self.spread * spread.rms_radius() / 3.0_f64.sqrt();
@@ -49,8 +48,8 @@ impl RandomSearch {
             .collect()
     }
 
-    /// The random point with the least RMS distance to the cloud: by the theorem of the parallel
-    /// axes the one nearest to the cloud's mean.
+    /// Finds the random point with the least RMS distance to the cloud, which by the parallel axis theorem
+    /// is the one nearest to the cloud's mean.
     pub(super) fn least_rms_distance(&self, points: &[DVec3]) -> DVec3 {
         let Some(spread) = Spread::of_points(points) else {
             return DVec3::ZERO;
@@ -63,9 +62,9 @@ impl RandomSearch {
         tries.iter().min_by(nearest).copied().unwrap_or(spread.mean)
     }
 
-    /// The random point whose distances to the cloud have the least standard deviation. On a cloud
-    /// of more than [`TRIAL_POINTS`] all are tried on a sample of that size, evenly taken, and the
-    /// best twentieth then on the whole cloud.
+    /// Finds the random point whose distances to the cloud have the least standard deviation. On a cloud
+    /// of more than [`TRIAL_POINTS`] points, all random points are tried on an even sample of that size,
+    /// and the best twentieth of them on the whole cloud.
     pub(super) fn least_deviation(&self, points: &[DVec3], watch: &dyn Watch) -> Result<DVec3, Cancelled> {
         let Some(spread) = Spread::of_points(points) else {
             return Ok(DVec3::ZERO);
@@ -86,15 +85,15 @@ impl RandomSearch {
     }
 }
 
-/// By variance, equals by their order.
+/// Orders by variance, and equal ones by their index.
 fn least_first(a: &(f64, usize), b: &(f64, usize)) -> std::cmp::Ordering {
     a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
 }
 
-/// The variance of the distances from each of `tries` to the cloud, with its index.
+/// Computes the variance of the distances from each of `tries` to the cloud, with the index of the try.
 fn deviations(points: &[DVec3], tries: &[DVec3], watch: &dyn Watch) -> Result<Vec<(f64, usize)>, Cancelled> {
     let columns = Columns::new(points);
-    // A few million distances between two looks at the watch.
+    // The watch is asked once in some million distances.
     let piece = (1_000_000 / columns.x.len().max(1)).clamp(1, 64);
     let pieces = map_pieces(tries.len(), piece, watch, |range| {
         range
@@ -104,20 +103,20 @@ fn deviations(points: &[DVec3], tries: &[DVec3], watch: &dyn Watch) -> Result<Ve
     Ok(pieces.concat())
 }
 
-/// The standard deviation of the distances from `p` to the points, in their unit: Eq. 3 read as
-/// the RMS error of the distances about their mean. `None` where there are no points.
+/// Computes the standard deviation of the distances from `p` to the points, in their unit: Eq. 3 read as
+/// the RMS error of the distances about their mean. `None` without points.
 pub fn distance_deviation(points: &[DVec3], p: DVec3) -> Option<f64> {
     (!points.is_empty()).then(|| Columns::new(points).distance_moments(p).1.sqrt())
 }
 
-/// The RMS distance from `p` to the points, in their unit: Eq. 3 as printed. `None` where there are
-/// no points.
+/// Computes the RMS distance from `p` to the points, in their unit: Eq. 3 as printed. `None` without
+/// points.
 pub fn rms_distance(points: &[DVec3], p: DVec3) -> Option<f64> {
     let sum: f64 = points.iter().map(|q| q.distance_squared(p)).sum();
     (!points.is_empty()).then(|| (sum / points.len() as f64).sqrt())
 }
 
-/// Coordinates apart, so that the distances of several points are taken at once.
+/// The points coordinate by coordinate, so that vector instructions take several distances at once.
 struct Columns {
     x: Vec<f64>,
     y: Vec<f64>,
@@ -133,12 +132,13 @@ impl Columns {
         }
     }
 
-    /// Mean and variance of the distances from `p`.
+    /// Computes the mean and the variance of the distances from `p`.
     fn distance_moments(&self, p: DVec3) -> (f64, f64) {
         const LANES: usize = 8;
         let distance =
             |x: f64, y: f64, z: f64| ((x - p.x).powi(2) + (y - p.y).powi(2) + (z - p.z).powi(2)).sqrt();
-        // Deviations from the first distance: a small variance is not the difference of large squares.
+        // Deviations are taken from the first distance, since a small variance would lose its digits as
+        // the difference of large squares.
         let first = distance(self.x[0], self.y[0], self.z[0]);
         let (mut sum, mut squares) = ([0.0; LANES], [0.0; LANES]);
         let (xs, x_rest) = self.x.as_chunks::<LANES>();

@@ -5,16 +5,16 @@ use nalgebra::{Matrix4, Vector4};
 
 use crate::geometry::Spread;
 
-/// Center and radius of the sphere with the least sum of squared distances between its surface and
-/// the points, in their unit; `None` where they lie in a plane or are fewer than four.
+/// Computes the center and radius of the sphere with the least sum of squared distances between its
+/// surface and the points, in their unit; `None` if they lie in a plane or are fewer than four.
 ///
-/// Starts from the algebraic fit, which is linear, and walks by Gauss and Newton from there.
+/// The Gauss–Newton method starts from the algebraic fit, which is linear.
 pub fn fit_sphere(points: &[DVec3]) -> Option<(DVec3, f64)> {
     let spread = Spread::of_points(points)?;
     if points.len() < 4 || spread.variances[0].sqrt() <= 1e-6 * spread.variances[2].sqrt() {
         return None;
     }
-    // Near the origin and of size one, where the normal equations keep their digits.
+    // Points near the origin and of size one keep the digits of the normal equations.
     let scale = spread.rms_radius();
     let scaled = || points.iter().map(|&p| (p - spread.mean) / scale);
 
@@ -31,7 +31,7 @@ pub fn fit_sphere(points: &[DVec3]) -> Option<(DVec3, f64)> {
     (center.is_finite() && radius.is_finite() && radius > 0.0).then_some((center, radius))
 }
 
-/// The sphere with the least Σ(‖p − c‖² − r²)².
+/// Computes the sphere with the least Σ(‖p − c‖² − r²)².
 fn algebraic_fit(points: impl Iterator<Item = DVec3>) -> Option<(DVec3, f64)> {
     let (mut normal, mut right) = (Matrix4::zeros(), Vector4::zeros());
     for p in points {
@@ -44,7 +44,7 @@ fn algebraic_fit(points: impl Iterator<Item = DVec3>) -> Option<(DVec3, f64)> {
     Some((center, (s[3] + center.length_squared()).sqrt()))
 }
 
-/// One step of (center, radius) towards the least Σ(‖p − c‖ − r)².
+/// Computes one step of (center, radius) towards the least Σ(‖p − c‖ − r)².
 fn gauss_newton_step(points: impl Iterator<Item = DVec3>, center: DVec3, radius: f64) -> Option<glam::DVec4> {
     let (mut normal, mut right) = (Matrix4::zeros(), Vector4::zeros());
     for p in points {

@@ -14,7 +14,7 @@ use crate::geometry::Cloud;
 const RINGS: u32 = 150;
 const AROUND: u32 = 256;
 
-/// How boxy the profile is above and below the middle: 2 is round, more is boxier.
+/// The boxiness of the profile above and below the middle: 2 is round, more is boxier.
 const BOXY: (f64, f64) = (2.9, 2.3);
 /// The radius of the dimples at the stem end and the blossom end, relative to the body's.
 const DIMPLE_RADIUS: (f64, f64) = (0.42, 0.33);
@@ -22,7 +22,7 @@ const DIMPLE_RADIUS: (f64, f64) = (0.42, 0.33);
 const CALYX_FILLS: f64 = 0.3;
 /// The blossom end's dimple is this much of the other's depth.
 const BLOSSOM_DIMPLE: f64 = 0.4;
-/// Keeps the grooves between the lobes round at their bottoms.
+/// The rounding of the grooves between the lobes at their bottoms.
 const GROOVE_ROUNDING: f64 = 0.28;
 
 /// The body's measures, in the fruit's frame: y up the axis, the shoulders' tops at +height/2, the
@@ -38,7 +38,7 @@ pub(super) struct Body {
     pub(super) asymmetry: Asymmetry,
 }
 
-/// How the fruit departs from its symmetry; each amplitude is of the size of the setting.
+/// The fruit's departures from its symmetry; each amplitude is of the size of the setting.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asymmetry {
     size: f64,
@@ -59,7 +59,7 @@ impl Asymmetry {
     }
 }
 
-/// The height and radius of the profile where a ring is, before lobes.
+/// The height and radius of the profile at a ring, before lobes.
 #[derive(Debug, Clone, Copy)]
 struct Profile {
     /// Height over the middle, relative to half the body's height: −1 to 1.
@@ -79,8 +79,8 @@ struct Fit {
 }
 
 impl Body {
-    /// Where the peduncle begins, a little above the floor of the stem end's dimple, which its calyx
-    /// fills; height over the center.
+    /// The height of the peduncle's base over the center, a little above the floor of the stem end's dimple,
+    /// which its calyx fills.
     pub(super) fn calyx_cm(&self) -> f64 {
         self.profile(FRAC_PI_2, self.fit()).up * self.half_height_cm + CALYX_FILLS * self.dimple_cm
     }
@@ -155,7 +155,7 @@ impl Body {
             let ups = angles(sign).map(|a| self.profile(a, fit).up * sign);
             ups.fold(0.0, f64::max)
         };
-        // What is missing is added; the slope of the reach is about 1, so this closes in quickly.
+        // The difference that is missing is added; the slope of the reach is about 1, so few steps do.
         for _ in 0..12 {
             fit.above += 1.0 - reach(1.0, fit);
             fit.below += 1.0 - reach(-1.0, fit);
@@ -211,7 +211,7 @@ fn color(paint: &Paint, relative: DVec3) -> Vec3 {
     paint.fruit(relative, unripe)
 }
 
-/// What depends on the angle around the axis alone.
+/// The parts of the shape that depend on the angle around the axis alone.
 #[derive(Debug, Clone, Copy)]
 struct Around {
     direction: DVec3,

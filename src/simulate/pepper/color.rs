@@ -1,10 +1,10 @@
-//! Colors of skin, peduncle and leaf, without shading: what a white light from everywhere would show.
+//! Colors of skin, peduncle and leaf without shading, as under white light from all sides.
 
 use glam::{DVec3, Vec3};
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-/// How ripe the fruit looks.
+/// The color of a fruit by its ripeness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -18,7 +18,7 @@ pub enum FruitColor {
 }
 
 impl FruitColor {
-    /// All of them.
+    /// All colors.
     pub const ALL: [Self; 3] = [Self::Red, Self::Yellow, Self::Green];
 
     fn skin(self) -> Vec3 {

@@ -1,4 +1,4 @@
-//! A pepper with nothing left to chance: what was set, and what the seed made of the rest.
+//! A pepper with nothing left to chance: the properties that were set, and those drawn by its seed.
 
 use glam::{DMat3, DVec3};
 use rand::{Rng, RngExt};
@@ -19,7 +19,7 @@ use crate::simulate::{Pose, Settings, SimulateError, TrueAxis, Truth};
 /// One pepper, its place and its surroundings.
 #[derive(Debug, Clone)]
 pub(super) struct Drawn {
-    /// With every field set.
+    /// The settings, every one of which is set.
     settings: PepperSettings,
     body: Body,
     peduncle: Peduncle,
@@ -30,8 +30,8 @@ pub(super) struct Drawn {
 }
 
 impl Drawn {
-    /// Decides everything. Streams and their order are part of the format: another order is another
-    /// pepper for the same seed.
+    /// Draws everything that is not set. The streams and the order of their draws are part of the format:
+    /// another order gives another pepper for the same seed.
     pub(super) fn new(wanted: &PepperSettings) -> Result<Self, SimulateError> {
         let seed = wanted.seed;
         let mut shape = stream(seed, Stream::Shape);
@@ -89,7 +89,7 @@ impl Drawn {
         mesh.moved(self.camera_from_fruit, self.center_cm)
     }
 
-    /// All that is known of it.
+    /// The truth about it.
     pub(super) fn into_truth(self, hidden_by_leaf: Option<f64>) -> Truth {
         let direction = self.camera_from_fruit * DVec3::Y;
         let to_stem_end = direction * self.body.half_height_cm;
@@ -151,7 +151,7 @@ fn draw_peduncle(wanted: &PepperSettings, body: &Body, rng: &mut ChaCha8Rng) -> 
     }
 }
 
-/// How a fruit is turned away from upright, in degrees as the settings have it.
+/// The rotation of a fruit away from upright, in degrees as in the settings.
 #[derive(Debug, Clone, Copy)]
 struct Tilt {
     towards_camera: f64,
@@ -180,8 +180,8 @@ impl Tilt {
     }
 }
 
-/// Anywhere at a depth in the wanted range where a ball around the fruit, and another around its
-/// peduncle, are wholly in the image.
+/// Draws a position at a depth in the wanted range such that a ball around the fruit, and another around
+/// its peduncle, lie within the image.
 fn draw_center(wanted: &PepperSettings, body: &Body, peduncle: &Peduncle, rng: &mut impl Rng) -> DVec3 {
     let [right, down, ahead] = rng.random::<[f64; 3]>();
     let [nearest, farthest] = wanted.distance_cm;

@@ -12,14 +12,14 @@ use crate::geometry::Cloud;
 
 const ACROSS: u32 = 41;
 const ALONG: u32 = 61;
-/// Between the leaf's farthest point and the fruit's nearest.
+/// The distance between the leaf's farthest point and the fruit's nearest.
 const GAP_CM: f64 = 0.5;
 
-/// A leaf's shape and how it hangs.
+/// The shape and posture of a leaf.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Leaf {
     length_cm: f64,
-    /// The way in the image along which it reaches over the fruit.
+    /// The direction in the image along which it reaches over the fruit.
     towards_rad: f64,
     turn: DMat3,
 }
@@ -27,7 +27,7 @@ pub(super) struct Leaf {
 impl Leaf {
     pub(super) fn draw(rng: &mut impl Rng) -> Self {
         let length_cm = 11.0 + 5.0 * rng.random::<f64>();
-        // From above and the sides: leaves hang, they do not stand up before a fruit.
+        // From above and the sides, since leaves hang down.
         let towards_rad = PI / 2.0 + (rng.random::<f64>() - 0.5) * PI;
         let lean = |u: f64| (u - 0.5) * 50_f64.to_radians();
         let [yaw, pitch] = rng.random::<[f64; 2]>().map(lean);
@@ -38,7 +38,8 @@ impl Leaf {
         }
     }
 
-    /// The leaf where it hides about `cover` of the pixels of `fruit`, and the share that it does hide.
+    /// Places the leaf so that it hides about `cover` of the pixels of `fruit`, and returns the share that it
+    /// does hide.
     ///
     /// It is slid along its own direction over the fruit; one too small to hide so much is grown.
     pub(super) fn covering(
@@ -112,12 +113,12 @@ impl Leaf {
     }
 }
 
-/// Where the fruit is in the image.
+/// The place of the fruit in the image.
 struct FruitSeen {
     nearest_cm: f64,
-    /// The point at depth 1 in the middle of what is seen of it.
+    /// The point at depth 1 in the middle of its visible part.
     ray: DVec3,
-    /// Half the diagonal of what is seen.
+    /// Half the diagonal of its visible part.
     radius_cm: f64,
     pixels: usize,
 }

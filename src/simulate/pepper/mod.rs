@@ -17,14 +17,14 @@ pub use self::color::FruitColor;
 pub use self::settings::PepperSettings;
 
 impl PepperSettings {
-    /// Draws what is open, builds the fruit, and looks at it.
+    /// Draws the settings that are open, builds the fruit, and measures it by the camera.
     ///
     /// The cloud is in centimeters in the camera's frame, a point for each pixel that measured one,
-    /// row by row, with colors and the labels of [`Cloud`], and without normals: a camera gives none.
+    /// row by row, with colors and the labels of [`Cloud`], but without normals, which a camera does not measure.
     /// A leaf is cropped to the rectangle of the image that the fruit takes up, as a detector's box would.
     ///
     /// # Errors
-    /// Where a setting makes no sense, or the camera sees nothing of the fruit.
+    /// Returns an error if a setting is out of range, or the camera sees nothing of the fruit.
     pub fn simulate(&self) -> Result<Simulated, SimulateError> {
         self.check()?;
         let drawn = Drawn::new(self)?;
@@ -55,7 +55,7 @@ impl PepperSettings {
     }
 }
 
-/// The measured points as a cloud.
+/// Makes a cloud of the measured points.
 ///
 /// # Panics
 /// Never: each point brings its own color and label.

@@ -11,21 +11,21 @@ use crate::geometry::Cloud;
 const RINGS: u32 = 64;
 const AROUND: u32 = 48;
 
-/// Over which length the calyx at the base narrows to the stalk.
+/// The length over which the calyx at the base narrows to the stalk.
 const CALYX_HEIGHT_CM: f64 = 0.3;
-/// The calyx reaches this much farther out than the stalk's radius, in radii.
+/// The excess of the calyx's radius over the stalk's, in the stalk's radii.
 const CALYX_FLARE: f64 = 2.3;
 
 /// The peduncle's measures, in the fruit's frame.
 #[derive(Debug, Clone)]
 pub(super) struct Peduncle {
-    /// Height of its base over the fruit's center.
+    /// The height of its base over the fruit's center.
     pub(super) base_cm: f64,
     pub(super) length_cm: f64,
     pub(super) width_cm: f64,
-    /// Between the axis and the direction of its free end.
+    /// The angle between the axis and the direction of its free end.
     pub(super) bend_deg: f64,
-    /// Around the axis, where it bends to.
+    /// The direction that it bends to, around the axis.
     pub(super) bend_towards_deg: f64,
 }
 
@@ -83,7 +83,7 @@ impl Peduncle {
     }
 }
 
-/// How far along the peduncle a ring is, 0 to 1.
+/// The place of a ring along the peduncle, 0 to 1.
 fn share(ring: u32) -> f64 {
     f64::from(ring) / f64::from(RINGS - 1)
 }

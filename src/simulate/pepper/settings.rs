@@ -1,4 +1,4 @@
-//! What can be chosen about a simulated pepper, and which choices make sense.
+//! The settings of a simulated pepper and their ranges.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -9,30 +9,29 @@ use crate::simulate::{DepthCamera, SimulateError};
 
 /// A pepper and the camera that looks at it.
 ///
-/// Where a field is `None` the seed draws it, from the range that the field names. What is set leaves
-/// everything else as the seed made it.
+/// The seed draws each field that is `None`, from the range that the field names. Setting one field leaves
+/// all others as the seed draws them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PepperSettings {
-    /// Decides all that is left to chance.
+    /// The seed of everything that is drawn.
     pub seed: u64,
 
-    /// From the lowest lobe to the shoulders; drawn from 7 to 11, settable from 1 to 50 cm.
+    /// The height from the lowest lobe to the shoulders; drawn from 7 to 11, settable from 1 to 50 cm.
     pub height_cm: Option<f64>,
     /// Twice the largest distance of a lobe from the axis; drawn from 0.75 to 0.95 of the height, as blocky
     /// sweet peppers have it, settable from 1 to 50 cm.
     pub width_cm: Option<f64>,
-    /// How many lobes; drawn 3 or 4, settable from 1 to 12.
+    /// The number of lobes; drawn 3 or 4, settable from 1 to 12.
     pub lobes: Option<u32>,
     /// Depth of the grooves between lobes relative to the radius; drawn from 0.08 to 0.16, settable
     /// from 0 to 0.4.
     pub lobe_depth: Option<f64>,
-    /// How much narrower the blossom end is, relative; drawn from 0.1 to 0.35, settable from 0 to 0.8.
+    /// The narrowing of the blossom end, relative to the width; drawn from 0.1 to 0.35, settable from 0 to 0.8.
     pub taper: Option<f64>,
-    /// How far the stem end is pressed in; drawn from 0.1 to 0.15
-    /// of the height, settable from 0 to a quarter of it.
+    /// The depth of the dimple at the stem end; drawn from 0.1 to 0.15 of the height, settable from 0 to a quarter of it.
     pub dimple_cm: Option<f64>,
-    /// How far the fruit departs from its own symmetry, relative to its size: unequal lobes, an oval
+    /// The departure from symmetry, relative to the fruit's size: unequal lobes, an oval
     /// section, slanting shoulders, a blossom end beside the axis. 0 to 0.2; 0 is perfect.
     pub asymmetry: f64,
     /// The fruit's color; drawn evenly.
@@ -44,16 +43,16 @@ pub struct PepperSettings {
     pub peduncle_width_cm: Option<f64>,
     /// The angle between the fruit's axis and the peduncle's free end; drawn from 10 to 50, settable from 0 to 120°.
     pub peduncle_bend_deg: Option<f64>,
-    /// Around the fruit's axis, where the peduncle bends to; drawn from 0 to 360, settable from -360 to 360°.
+    /// The direction that the peduncle bends to, around the fruit's axis; drawn from 0 to 360, settable from -360 to 360°.
     pub peduncle_bend_towards_deg: Option<f64>,
 
     /// The largest lean towards the camera or away that is drawn, 0 to 90°.
     pub max_tilt_towards_camera_deg: f64,
     /// The largest lean to a side that is drawn, 0 to 180°.
     pub max_tilt_sideways_deg: f64,
-    /// How far the stem end leans out of the image plane, positive towards the camera; -90 to 90°.
+    /// The lean of the stem end out of the image plane, positive towards the camera; -90 to 90°.
     pub tilt_towards_camera_deg: Option<f64>,
-    /// How far the axis, as the image shows it, leans from image-up to the right; -180 to 180°.
+    /// The lean of the axis, as the image shows it, from image-up to the right; -180 to 180°.
     pub tilt_sideways_deg: Option<f64>,
     /// The turn about the fruit's own axis; drawn from 0 to 360, settable from -360 to 360°.
     pub spin_deg: Option<f64>,
@@ -63,7 +62,7 @@ pub struct PepperSettings {
     pub center_cm: Option<DVec3>,
 
     /// The share of the fruit (peduncle included) that a leaf before it hides, 0 to 0.9; 0 for no leaf.
-    /// What it really hides is in the truth.
+    /// The truth holds the share that it does hide.
     pub leaf_cover: f64,
     /// The camera.
     pub camera: DepthCamera,
@@ -101,7 +100,7 @@ impl Default for PepperSettings {
 }
 
 impl PepperSettings {
-    /// Refuses what makes no sense, NaN included.
+    /// Checks the range of every setting, which NaN is out of.
     pub(super) fn check(&self) -> Result<(), SimulateError> {
         self.camera.check()?;
         self.check_shape()?;

@@ -2,31 +2,46 @@
 
 use std::fmt::Write;
 
-use super::ellipsoids::{Depth, Errors, Settings};
-use super::peppers::{OUTLIER_NEIGHBORS, OUTLIER_STD, Pepper, PepperErrors, VOXEL_CM, Variant};
-use super::readings::{AS_INTENDED, AS_PRINTED, READINGS, Summary};
+use super::peppers::{OUTLIER_NEIGHBORS, OUTLIER_STD, VOXEL_CM};
+use super::readings::{AS_INTENDED, AS_PRINTED, READINGS};
+use super::{
+    EllipsoidDepth, EllipsoidErrors, PepperErrors, PepperVariant, ReproduceSettings, ReproducedPepper, Spread,
+};
 
-/// The paper's mean errors in degrees: § 3.1 and Fig. 8; Fig. 12; Fig. 13.
+/// The paper's mean error of § 3.1 and Fig. 8, in degrees.
 pub(super) const PAPER_FIG_8_DEG: f64 = 6.4710;
+/// The paper's mean error of Fig. 12, in degrees.
 pub(super) const PAPER_FIG_12_DEG: f64 = 7.3729;
+/// The paper's mean error of Fig. 13, in degrees.
 pub(super) const PAPER_FIG_13_DEG: f64 = 6.9343;
 
+/// The report in Markdown.
 pub(super) fn markdown(
-    settings: &Settings<'_>,
-    depths: &[Depth],
-    peppers: &[Pepper],
-) -> Result<String, std::fmt::Error> {
+    settings: &ReproduceSettings,
+    depths: &[EllipsoidDepth],
+    peppers: &[ReproducedPepper],
+) -> String {
     let mut out = String::new();
-    writeln!(out, "# Reproduction of Li et al., Sensors 18 (2018) 3083, § 3\n")?;
-    ellipsoids(&mut out, settings, depths)?;
-    if !peppers.is_empty() {
-        writeln!(out)?;
-        self::peppers(&mut out, settings, peppers)?;
-    }
-    Ok(out)
+    write_report(&mut out, settings, depths, peppers).expect("a string takes all text");
+    out
 }
 
-fn ellipsoids(out: &mut String, settings: &Settings<'_>, depths: &[Depth]) -> std::fmt::Result {
+fn write_report(
+    out: &mut String,
+    settings: &ReproduceSettings,
+    depths: &[EllipsoidDepth],
+    peppers: &[ReproducedPepper],
+) -> std::fmt::Result {
+    writeln!(out, "# Reproduction of Li et al., Sensors 18 (2018) 3083, § 3\n")?;
+    ellipsoids(out, settings, depths)?;
+    if !peppers.is_empty() {
+        writeln!(out)?;
+        self::peppers(out, settings, peppers)?;
+    }
+    Ok(())
+}
+
+fn ellipsoids(out: &mut String, settings: &ReproduceSettings, depths: &[EllipsoidDepth]) -> std::fmt::Result {
     let clouds = depths.len();
     let (first, last) = (settings.depths_cm[0], settings.depths_cm[clouds - 1]);
     writeln!(out, "## § 3.1: the simulated ellipsoid\n")?;
@@ -46,8 +61,8 @@ fn ellipsoids(out: &mut String, settings: &Settings<'_>, depths: &[Depth]) -> st
         "| **the paper** | {PAPER_FIG_8_DEG:.2} | 5 to 8 | – | – | – |"
     )?;
     for (i, reading) in READINGS.iter().enumerate() {
-        let errors: Vec<&Errors> = depths.iter().filter_map(|d| d.readings[i].as_ref()).collect();
-        let mean = |f: fn(&Errors) -> Summary| Summary::of(errors.iter().map(|e| f(e).mean));
+        let errors: Vec<&EllipsoidErrors> = depths.iter().filter_map(|d| d.readings[i].as_ref()).collect();
+        let mean = |f: fn(&EllipsoidErrors) -> Spread| Spread::of(errors.iter().map(|e| f(e).mean));
         let runs: usize = errors.iter().map(|e| e.runs).sum();
         write!(out, "| {} ", reading.name())?;
         match (
@@ -74,7 +89,7 @@ fn ellipsoids(out: &mut String, settings: &Settings<'_>, depths: &[Depth]) -> st
             .iter()
             .filter_map(|d| d.readings[i].as_ref())
             .map(|e| e.to_image_up_deg.mean);
-        Summary::of(means).map_or("no axis".into(), |s| format!("{:.1}°", s.mean))
+        Spread::of(means).map_or("no axis".into(), |s| format!("{:.1}°", s.mean))
     };
     writeln!(out, "\nWhat could not be reproduced, and why:\n")?;
     writeln!(
@@ -106,15 +121,16 @@ fn ellipsoids(out: &mut String, settings: &Settings<'_>, depths: &[Depth]) -> st
     )
 }
 
-/// The mirror planes hold z, so their normals have α = 90°.
+/// The angle in degrees from the mirror planes' normals, whose α is 90° since the planes hold z, to the
+/// nearest candidate's.
 fn nearest_candidate_to_a_mirror_plane_deg(u: usize) -> f64 {
     if u.is_multiple_of(2) { 90.0 / u as f64 } else { 0.0 }
 }
 
-/// One of a pepper's two clouds.
-type Pick = fn(&Pepper) -> &Variant;
+/// A choice of one of a pepper's two clouds.
+type Pick = fn(&ReproducedPepper) -> &PepperVariant;
 
-fn peppers(out: &mut String, settings: &Settings<'_>, peppers: &[Pepper]) -> std::fmt::Result {
+fn peppers(out: &mut String, settings: &ReproduceSettings, peppers: &[ReproducedPepper]) -> std::fmt::Result {
     writeln!(out, "## § 3.2: peppers with and without peduncle\n")?;
     writeln!(
         out,
@@ -135,7 +151,7 @@ fn peppers(out: &mut String, settings: &Settings<'_>, peppers: &[Pepper]) -> std
         }),
     ];
     for (name, paper_deg, paper_range, pick) in variants {
-        let points = Summary::of(peppers.iter().map(|p| pick(p).points as f64)).map_or(0.0, |s| s.mean);
+        let points = Spread::of(peppers.iter().map(|p| pick(p).points as f64)).map_or(0.0, |s| s.mean);
         writeln!(out, "Clouds {name}, {points:.0} points on average:\n")?;
         writeln!(
             out,
@@ -148,7 +164,7 @@ fn peppers(out: &mut String, settings: &Settings<'_>, peppers: &[Pepper]) -> std
         )?;
         for (i, reading) in READINGS.iter().enumerate() {
             let errors: Vec<PepperErrors> = peppers.iter().filter_map(|p| pick(p).readings[i]).collect();
-            let mean = |f: fn(&PepperErrors) -> f64| Summary::of(errors.iter().map(f));
+            let mean = |f: fn(&PepperErrors) -> f64| Spread::of(errors.iter().map(f));
             write!(out, "| {} ", reading.name())?;
             match (
                 mean(|e| e.to_reference_deg),

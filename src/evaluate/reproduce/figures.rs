@@ -1,15 +1,13 @@
 //! The paper's Fig. 8, 12 and 13, drawn from our runs.
 
-use axiscope::charts::{BarChart, BarSeries, Figure, Guide, Labels, LineChart, LinePoint, LineSeries};
-
-use super::ellipsoids::Depth;
-use super::peppers::{Pepper, PepperErrors};
 use super::readings::{AS_INTENDED, AS_PRINTED, READINGS};
 use super::report::{PAPER_FIG_8_DEG, PAPER_FIG_12_DEG, PAPER_FIG_13_DEG};
+use super::{EllipsoidDepth, PepperErrors, ReproducedPepper};
+use crate::charts::{BarChart, BarSeries, Figure, Guide, Labels, LineChart, LinePoint, LineSeries};
 
 /// Fig. 8: the mean error at each depth, for every reading.
-pub(super) fn error_per_depth(depths: &[Depth]) -> Figure {
-    let point = |depth: &Depth, reading: usize| {
+pub(super) fn error_per_depth(depths: &[EllipsoidDepth]) -> Figure {
+    let point = |depth: &EllipsoidDepth, reading: usize| {
         let errors = depth.readings[reading].as_ref().map(|e| e.to_image_up_deg);
         LinePoint {
             x: depth.z0_cm,
@@ -31,8 +29,8 @@ pub(super) fn error_per_depth(depths: &[Depth]) -> Figure {
 }
 
 /// Fig. 12 (without the peduncle) and Fig. 13 (with it): the error of each cloud.
-pub(super) fn error_per_pepper(peppers: &[Pepper], without_peduncle: bool) -> Figure {
-    let variant = |pepper: &Pepper, reading: usize| {
+pub(super) fn error_per_pepper(peppers: &[ReproducedPepper], without_peduncle: bool) -> Figure {
+    let variant = |pepper: &ReproducedPepper, reading: usize| {
         let variant = if without_peduncle {
             &pepper.without_peduncle
         } else {

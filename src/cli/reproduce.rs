@@ -1,16 +1,10 @@
 //! `axiscope reproduce`: the paper's experiments (§ 3) beside the paper's figures.
 
-mod ellipsoids;
-mod figures;
-mod peppers;
-mod readings;
-mod report;
-mod tables;
-
 use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::Context;
+use axiscope::evaluate::reproduce::{ReproduceSettings, Reproduction, run_ellipsoids, run_peppers};
 use clap::Args;
 
 use super::options::{Depths, depths, grid_size};
@@ -43,40 +37,34 @@ pub(super) struct Reproduce {
 
 pub(super) fn run(args: &Reproduce) -> anyhow::Result<()> {
     std::fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
-
-    let watch = CountingBar::new("§ 3.1, ellipsoids", args.z0.0.len() * args.runs as usize);
-    let settings = ellipsoids::Settings {
-        depths_cm: &args.z0.0,
+    let settings = ReproduceSettings {
+        depths_cm: args.z0.0.clone(),
         runs: args.runs as usize,
         points: args.points,
+        peppers: args.peppers as usize,
         u: args.u,
         seed: args.seed,
     };
-    let ellipsoids = ellipsoids::run(&settings, &watch)?;
-    watch.finish();
 
-    let watch = CountingBar::new("§ 3.2, peppers", args.peppers as usize);
-    let peppers = peppers::run(args.peppers as usize, args.u, args.seed, &watch)?;
-    watch.finish();
+    let bar = CountingBar::new("§ 3.1, ellipsoids", settings.depths_cm.len() * settings.runs);
+    let depths = run_ellipsoids(&settings, &bar)?;
+    bar.finish();
+    let bar = CountingBar::new("§ 3.2, peppers", settings.peppers);
+    let peppers = run_peppers(&settings, &bar)?;
+    bar.finish();
 
-    let text = report::markdown(&settings, &ellipsoids, &peppers)?;
-    let save = |name: &str, bytes: &[u8]| {
-        let path = args.out.join(name);
-        std::fs::write(&path, bytes).with_context(|| path.display().to_string())
+    let reproduction = Reproduction {
+        settings,
+        depths,
+        peppers,
     };
-    save("report.md", text.as_bytes())?;
-    save("ellipsoids.csv", &tables::ellipsoids(&ellipsoids)?)?;
-    let mut figures = vec![("fig8", figures::error_per_depth(&ellipsoids))];
-    if !peppers.is_empty() {
-        save("peppers.csv", &tables::peppers(&peppers)?)?;
-        figures.push(("fig12", figures::error_per_pepper(&peppers, true)));
-        figures.push(("fig13", figures::error_per_pepper(&peppers, false)));
+    for (name, bytes) in reproduction.files()? {
+        let path = args.out.join(name);
+        std::fs::write(&path, bytes).with_context(|| path.display().to_string())?;
     }
-    for (name, figure) in figures {
-        save(&format!("{name}.svg"), figure.svg()?.as_bytes())?;
-        save(&format!("{name}.png"), &figure.png(1.0)?)?;
-    }
-    std::io::stdout().lock().write_all(text.as_bytes())?;
+    std::io::stdout()
+        .lock()
+        .write_all(reproduction.report().as_bytes())?;
     eprintln!(
         "Wrote the report, its tables and its figures to {}.",
         args.out.display()

@@ -1,0 +1,111 @@
+//! The first two stages: filters and normals (Eq. 2), from a cloud to the points that the method uses.
+
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{AnalysisError, Filters, NormalSource, Observe, Params, Stage, Surface, is_viewpoint_inside};
+use crate::geometry::{Cloud, Unit, statistical_inliers, voxel_edge_for, voxel_grid};
+use crate::parallel::{Cancelled, Watch};
+
+/// The points that are left after the filters and have a normal, with the counts that the warnings
+/// about them are made of.
+#[derive(Debug, Clone)]
+pub(super) struct UsedPoints {
+    /// The points and their normals.
+    pub(super) surface: Arc<Surface>,
+    /// Points after the filters, before those without a normal are left out.
+    pub(super) filtered: usize,
+    /// The sampling that [`Filters::max_points`] asked for; `None` for a cloud that is small enough.
+    pub(super) sample: Option<Sample>,
+    /// Used points whose normal faces away from the viewpoint.
+    pub(super) facing_away: usize,
+}
+
+/// The thinning of a large cloud to the means of equal cubes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sample {
+    /// The edge of the cubes, in the file's unit.
+    pub(super) edge: f64,
+    /// Points before the thinning, after the other filters.
+    pub(super) points: usize,
+}
+
+/// The parameters that the used points depend on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct UsedPointsKey {
+    filters: Filters,
+    /// The unit, where the edge of a voxel grid is given in centimeters.
+    unit: Option<Unit>,
+    /// k of Eq. 2, where normals are estimated; `None` where they are the file's.
+    k: Option<NonZeroUsize>,
+    viewpoint: DVec3,
+}
+
+impl UsedPointsKey {
+    pub(super) fn new(params: &Params) -> Self {
+        Self {
+            filters: params.filters,
+            unit: params.filters.voxel_cm.map(|_| params.unit),
+            k: (params.normals == NormalSource::Estimate).then_some(params.k),
+            viewpoint: params.viewpoint,
+        }
+    }
+}
+
+impl UsedPoints {
+    /// Filters `cloud` and finds its normals.
+    ///
+    /// # Errors
+    /// Returns an error if the points are too few, all equal or on a line, if the viewpoint lies among
+    /// them, or if the watch cancels the work.
+    pub(super) fn new(cloud: &Cloud, params: &Params, observe: &dyn Observe) -> Result<Self, AnalysisError> {
+        observe.entered(Stage::Filters);
+        let (filtered, sample) = filter(cloud, params, observe)?;
+        let cloud = filtered.as_ref().unwrap_or(cloud);
+        observe.entered(Stage::Normals);
+        let viewpoint = params.viewpoint;
+        let surface = match params.normals {
+            NormalSource::Estimate => Surface::with_estimated_normals(cloud, params.k, viewpoint, observe)?,
+            NormalSource::File => Surface::with_file_normals(cloud)?,
+        };
+        if is_viewpoint_inside(surface.points(), viewpoint) {
+            return Err(AnalysisError::ViewpointInsideCloud { viewpoint });
+        }
+        Ok(Self {
+            filtered: cloud.len(),
+            sample,
+            facing_away: surface.facing_away(viewpoint),
+            surface: Arc::new(surface),
+        })
+    }
+}
+
+/// Returns the filtered cloud, or `None` if no filter changed it, and the sampling, if there was one.
+fn filter(
+    cloud: &Cloud,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<(Option<Cloud>, Option<Sample>), Cancelled> {
+    let Filters {
+        outliers,
+        voxel_cm,
+        max_points,
+    } = params.filters;
+    let mut filtered = None;
+    if let Some(outliers) = outliers {
+        let inliers = statistical_inliers(cloud.positions(), outliers.neighbors, outliers.std_ratio, watch)?;
+        filtered = Some(cloud.select(&inliers));
+    }
+    if let Some(edge_cm) = voxel_cm {
+        let cloud = filtered.as_ref().unwrap_or(cloud);
+        filtered = Some(voxel_grid(cloud, edge_cm / params.unit.in_cm()));
+    }
+    let cloud = filtered.as_ref().unwrap_or(cloud);
+    let Some(edge) = voxel_edge_for(cloud.positions(), max_points, watch)? else {
+        return Ok((filtered, None));
+    };
+    let points = cloud.len();
+    Ok((Some(voxel_grid(cloud, edge)), Some(Sample { edge, points })))
+}
