@@ -76,9 +76,9 @@ pub struct Journal {
     pub history: History<Annotation>,
     /// Every annotation that there ever was, the oldest first; those that can no longer be redone as well.
     pub ever: Vec<Annotation>,
-    /// How many lines were understood, the first one apart.
+    /// The number of lines that were understood, not counting the first.
     pub operations: u64,
-    /// How many bytes they are. What follows was cut short, and is to be written over.
+    /// Their length in bytes. The rest was cut short, and is to be overwritten.
     pub length: u64,
     /// Whether something follows.
     pub is_truncated: bool,

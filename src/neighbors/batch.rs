@@ -20,7 +20,7 @@ pub(crate) struct BlockResult {
 
 /// While leaves are looked into first, the reach is drawn in after so many of them.
 const ROUND: usize = 8;
-/// Where fewer leaves wait, drawing the reach in is not worth its time.
+/// The number of waiting leaves below which drawing the reach in is not worth its time.
 const MANY: usize = 24;
 
 /// A search for the nearest places of blocks of queries, each of which starts where the one before it ended.

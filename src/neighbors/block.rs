@@ -22,7 +22,7 @@ pub(super) struct Looked {
     pub(super) leaf: usize,
     /// Its center, seen from the center of the queries.
     center: [f32; 3],
-    /// What the squared distances of two of its points must differ by to be told apart.
+    /// The least difference of two squared distances that tells two of its points apart.
     ties: f32,
     /// The lower bounds of each query's squared distance from its points.
     pub(super) lower: Lanes,
@@ -57,7 +57,7 @@ pub(super) struct Block {
 /// A leaf as seen from the center of a block.
 struct Sight {
     center: [f32; 3],
-    /// What the leaf's squared distance exceeds the reference by.
+    /// The excess of the leaf's squared distance over the reference.
     farther: f32,
     /// The bound on what rounding may change in the squared distance from a query to a point of the leaf, and
     /// in what two points of the leaf differ by.

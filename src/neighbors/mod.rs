@@ -77,7 +77,7 @@ pub struct Neighbors {
     tree: Tree,
     /// The lowest point index of each place, in the tree's order.
     first: Vec<u32>,
-    /// Where the points of each place start in `order`, and the number of points at the end.
+    /// The start of each place's points in `order`, and the number of points at the end.
     start: Vec<u32>,
     /// All points, place by place.
     order: Vec<u32>,

@@ -143,14 +143,14 @@ impl Peduncle {
         let spread = Spread::of_points(points).ok_or(PeduncleError::EmptyCompanion)?;
         let size = Extent::robust(cloud.positions()).map_or(0.0, |e| e.size().length());
         let near = (1e-4 * size).powi(2);
-        let coincides = |p: &DVec3| index.nearest(*p).distance_squared <= near;
-        let belongs = cloud.positions().iter().enumerate();
+        let nearest = index.nearest_of_each(cloud.positions());
+        let coincides = |&i: &usize| nearest[i].distance_squared <= near;
         Ok(Self {
             source: PeduncleSource::Companion,
             mean: spread.mean,
             spread,
             points: points.len(),
-            in_cloud: belongs.filter(|(_, p)| coincides(p)).map(|(i, _)| i).collect(),
+            in_cloud: (0..cloud.len()).filter(coincides).collect(),
         })
     }
 
@@ -165,14 +165,13 @@ impl Peduncle {
         let size = Extent::robust(cloud.positions()).map_or(0.0, |e| e.size().length());
         let near = (1e-4 * size).powi(2);
         let kept = Neighbors::new(body.positions()).ok_or(PeduncleError::EmptyBody)?;
-        let is_missing = |p: DVec3| kept.nearest(p).distance_squared > near;
-        let removed = Self::of_points(cloud, PeduncleSource::Removal, |i| {
-            is_missing(cloud.positions()[i])
-        })
-        .ok_or(PeduncleError::NoneRemoved)?;
+        let in_body = kept.nearest_of_each(cloud.positions());
+        let is_missing = |i: usize| in_body[i].distance_squared > near;
+        let removed =
+            Self::of_points(cloud, PeduncleSource::Removal, is_missing).ok_or(PeduncleError::NoneRemoved)?;
         let all = Neighbors::new(cloud.positions()).ok_or(PeduncleError::NoneRemoved)?;
-        let is_strange = |p: &&DVec3| all.nearest(**p).distance_squared > near;
-        let strange = body.positions().iter().filter(is_strange).count();
+        let in_cloud = all.nearest_of_each(body.positions());
+        let strange = in_cloud.iter().filter(|n| n.distance_squared > near).count();
         if 2 * removed.points >= cloud.len() || 2 * strange >= body.len() {
             return Err(PeduncleError::OtherBody {
                 missing: removed.points,

@@ -97,11 +97,8 @@ impl ShownPoints {
     pub fn analyzed(&self, cloud: &Cloud, analysis: &Analysis) -> Self {
         let surface = analysis.surface.points();
         if analysis.params.filters.voxel_cm.is_some() {
-            let nearest = Neighbors::new(cloud.positions());
-            let source: Vec<usize> = surface
-                .iter()
-                .map(|&p| nearest.as_ref().map_or(0, |n| n.nearest(p).index))
-                .collect();
+            let nearest = Neighbors::new(cloud.positions()).map(|n| n.nearest_of_each(surface));
+            let source: Vec<usize> = nearest.into_iter().flatten().map(|n| n.index).collect();
             let shown = Self::of(
                 Arc::new(surface.to_vec()),
                 (cloud.colors()).map(|c| Arc::new(source.iter().map(|&i| c[i]).collect())),

@@ -68,7 +68,7 @@ impl Column {
     }
 }
 
-/// What was on the screen a frame ago.
+/// The rows that were on the screen a frame ago.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Seen {
     current: Option<usize>,
@@ -198,7 +198,8 @@ fn body(ui: &mut Ui, id: Id, width: f32, state: &State, commands: &mut Vec<Comma
     answer
 }
 
-/// What has the keyboard for the whole table; it takes it where nobody has it as the table comes to the front.
+/// The widget that has the keyboard for the whole table. It takes the focus when the table comes to the front and no other
+/// widget has it.
 fn keyboard(ui: &mut Ui, id: Id, seen: Seen, frame: u64) -> Response {
     let rect = ui.available_rect_before_wrap();
     let keyboard = ui.interact(rect, id.with("keyboard"), Sense::focusable_noninteractive());
@@ -290,7 +291,7 @@ fn write(ui: &Ui, cell: Rect, text: &str, is_text: bool, is_italic: bool, font: 
     ui.painter().galley(pos2(x, y), galley, color);
 }
 
-/// What a row has no room for.
+/// The facts of a row that its columns have no room for.
 fn explain(response: Response, row: &TableRow) {
     response.on_hover_ui_at_pointer(|ui| {
         ui.set_max_width(440.0);
