@@ -55,27 +55,34 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
     #[inline(always)]
     pub(crate) fn find(&mut self, queries: &[Column; 3], size: usize, result: &mut BlockResult) {
         let (simd, tree) = (self.simd, &self.index.tree);
-        let is_near = self.block.begin(simd, queries);
-        if !is_near {
+        if !self.block.begin(simd, queries) {
             let center = self.block.center;
             let leaf = tree.descend(&center);
             self.last = tree.nearest_in(leaf, DVec3::from_array(center)).1;
         }
         self.search();
         let (count, last) = self.block.candidates();
+        let mut found = [[0.0; BLOCK]; 3];
         for i in 0..size {
-            let query = DVec3::new(queries[0][i], queries[1][i], queries[2][i]);
-            let looked = &self.block.looked[last[i] as usize];
             let mut position = None;
             if count[i] == 1 {
+                let looked = &self.block.looked[last[i] as usize];
                 position = self.block.nearest_in(simd, tree, looked, i);
             }
-            let (squared, position) = match position {
-                Some(position) => (tree.point(position).distance_squared(query), position),
-                None => self.exact(i, query),
+            let position = match position {
+                Some(position) => position,
+                None => self.exact(i, DVec3::new(queries[0][i], queries[1][i], queries[2][i])),
             };
             result.position[i] = position as u32;
-            result.distance_squared[i] = squared;
+            let point = tree.point(position);
+            for e in 0..3 {
+                found[e][i] = point[e];
+            }
+        }
+        for i in 0..BLOCK {
+            let (x, y) = (queries[0][i] - found[0][i], queries[1][i] - found[1][i]);
+            let z = queries[2][i] - found[2][i];
+            result.distance_squared[i] = x * x + y * y + z * z;
         }
         self.last = result.position[size - 1] as usize;
     }
@@ -117,11 +124,10 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
         }
     }
 
-    /// The squared distance and the position of the place nearest to query `i`, among all that single
-    /// precision could not tell apart.
+    /// The position of the place nearest to query `i`, among all that single precision could not tell apart.
     #[cold]
     #[inline(never)]
-    fn exact(&self, i: usize, query: DVec3) -> (f64, usize) {
+    fn exact(&self, i: usize, query: DVec3) -> usize {
         let (index, tree) = (self.index, &self.index.tree);
         let mut best = (f64::INFINITY, usize::MAX);
         for looked in &self.block.looked {
@@ -137,6 +143,6 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
                 best = (squared, position);
             }
         }
-        best
+        best.1
     }
 }

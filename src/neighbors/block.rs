@@ -240,11 +240,8 @@ impl Block {
             let found = if squared > 0.0 { squared } else { 0.0 }.sqrt();
             let more = 2.0 * away * (found + away);
             let excess = upper + more + ROUNDING * (upper.abs() + more);
-            reach.0[i] = if excess < f32::INFINITY {
-                excess
-            } else {
-                f32::INFINITY
-            };
+            // Infinite as well where rounding left no number.
+            reach.0[i] = excess.min(f32::INFINITY);
         }
         self.reach = reach.greatest(simd);
     }
@@ -289,11 +286,8 @@ impl Block {
         // Each place within the limit adds its code. The sum of several is no code.
         let mut codes = Lanes::default();
         for j in 0..LEAF {
-            codes.0[j] = if excess.0[j] <= limit {
-                (LEAF + j) as f32
-            } else {
-                0.0
-            };
+            let code = (LEAF + j) as f32;
+            codes.0[j] = if excess.0[j] <= limit { code } else { 0.0 };
         }
         let place = (codes.sum(simd) as usize).wrapping_sub(LEAF);
         (place < LEAF).then_some(looked.leaf * LEAF + place)
