@@ -61,7 +61,7 @@
 //!
 //! # Features
 //!
-//! All are on by default, and the method needs none of them: `default-features = false` leaves about fifty small
+//! All are on by default, and the method needs none of them: `default-features = false` leaves about seventy small
 //! crates to build.
 //!
 //! | Feature | Contents |
