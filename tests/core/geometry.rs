@@ -30,7 +30,9 @@ fn awkward(kind: usize, seed: u64, count: usize, offset: f64) -> Vec<DVec3> {
     let shape = |p: DVec3| match kind {
         // A few strays far away from a cloud that is small beside that; small clumps far apart.
         8 if p.x > 0.9 => p * 1e6,
-        0 | 8 => p,
+        // Strays whose squares leave single precision's range.
+        15 if p.x > 0.95 => p * 1e20,
+        0 | 8 | 15 => p,
         1 => (p * 3.0).round() / 3.0,
         2 => DVec3::new(p.x, p.x, -p.x),
         3 => DVec3::new(p.x, p.y, 0.0),
@@ -46,9 +48,7 @@ fn awkward(kind: usize, seed: u64, count: usize, offset: f64) -> Vec<DVec3> {
         // Clumps of many sizes; shells in shells.
         13 => (p * 1.5).round() + 1e-7 * p,
         14 => p * 10f64.powi((8.0 * p.x) as i32),
-        // Strays whose squares leave single precision's range; so do all points' squares.
-        15 if p.x > 0.95 => p * 1e20,
-        15 => p,
+        // All points' squares leave single precision's range.
         16 => p * 1e30,
         _ => {
             if p.x < 0.5 {

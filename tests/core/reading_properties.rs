@@ -293,7 +293,8 @@ proptest! {
         let file = damages.iter().fold(file, damaged);
         let start = Instant::now();
         let result = read(&file);
-        prop_assert!(start.elapsed() < Duration::from_secs(1), "slow");
+        // However slow the machine: a reader that spins takes far longer.
+        prop_assert!(start.elapsed() < Duration::from_mins(1), "it spins");
         match result {
             Ok(read) => {
                 let cloud = read.cloud;
