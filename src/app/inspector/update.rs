@@ -137,7 +137,10 @@ impl Inspector {
             Ok((stages, result)) => {
                 let before = std::mem::replace(&mut cx.stages, stages);
                 cx.pool.discard(Some(before));
-                self.accept(result, cx);
+                // A cloud that was left meanwhile is not shown, nor its error said, in the place of the current one.
+                if self.asked.as_ref().map(|key| &key.source) == cx.state.source() {
+                    self.accept(result, cx);
+                }
             }
             Err(Crashed(fault)) => {
                 cx.say(
@@ -167,7 +170,11 @@ impl Inspector {
                 // It begins with a file's name, whose letters stay as they are.
                 cx.say(true, format!("{error}."));
             }
-            Err(AnalyzeError::Cancelled) => cx.state.was_cancelled = true,
+            // The cloud before may still be shown, and keeps its view.
+            Err(AnalyzeError::Cancelled) => {
+                cx.state.was_cancelled = true;
+                return;
+            }
         }
         self.frame_if_new(&mut cx.state);
     }
