@@ -7,6 +7,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::peduncle::state::PeduncleState;
+use super::simulator::SimulatorState;
 use super::tool::Tool;
 use crate::app::inspector::look::Look;
 use crate::app::inspector::stages::{AnalyzedFruit, Source};
@@ -118,6 +119,8 @@ pub struct State {
     pub pixels_per_point: f32,
     /// The tool of the left mouse button.
     pub tool: Tool,
+    /// The simulated pepper.
+    pub simulator: SimulatorState,
     /// Picking the peduncle.
     pub peduncle: PeduncleState,
     /// The picked point, by its index among the shown ones.
@@ -164,6 +167,7 @@ impl State {
             viewport: Viewport::new(800.0, 600.0),
             pixels_per_point: 1.0,
             tool: Tool::Navigate,
+            simulator: SimulatorState::default(),
             peduncle: PeduncleState::default(),
             picked: None,
             pointed_at: None,
