@@ -226,6 +226,7 @@ fn another(before: &PepperSettings) -> PepperSettings {
         seed: before.seed.wrapping_add(1),
         asymmetry: before.asymmetry,
         leaf_cover: before.leaf_cover,
+        scan: before.scan.clone(),
         camera: before.camera.clone(),
         ..PepperSettings::default()
     }

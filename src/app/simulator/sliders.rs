@@ -27,6 +27,12 @@ pub enum Slider {
     Taper,
     /// The departure from symmetry.
     Asymmetry,
+    /// The number of places that the camera looks from.
+    Views,
+    /// The arc that the camera covers on its way around the fruit.
+    Arc,
+    /// The error of the camera's known pose.
+    PoseError,
     /// The standard deviation of a depth.
     Noise,
     /// The share of pixels without a depth.
@@ -65,7 +71,7 @@ impl SliderGroup {
         match self {
             Self::Pose => &[LeanTowardsCamera, LeanSideways, Spin, Distance],
             Self::Fruit => &[Height, Width, Lobes, LobeDepth, Taper, Asymmetry],
-            Self::Scan => &[Noise, Holes, Leaf],
+            Self::Scan => &[Views, Arc, PoseError, Noise, Holes, Leaf],
         }
     }
 }
@@ -166,6 +172,33 @@ impl Slider {
                 "The departure from symmetry, as a share of the fruit's size: unequal lobes, an oval section, slanting \
                  shoulders.",
             ),
+            Self::Views => facts(
+                "Views",
+                "",
+                1.0..=15.0,
+                1.0,
+                0,
+                "The number of places that the camera looks from. The points of several views are fused to one cloud, as \
+                 in the paper (§ 2.1).",
+            ),
+            Self::Arc => facts(
+                "Arc",
+                "°",
+                0.0..=360.0,
+                5.0,
+                0,
+                "The whole arc of the camera's way around the fruit: 180° are 90° to either side. Without effect for one \
+                 view.",
+            ),
+            Self::PoseError => facts(
+                "Pose error",
+                "°",
+                0.0..=3.0,
+                0.05,
+                2,
+                "The standard deviation of the error with which the camera's rotation is known. Without effect for one \
+                 view.",
+            ),
             Self::Noise => facts(
                 "Noise at 40 cm",
                 " mm",
@@ -236,6 +269,9 @@ impl Slider {
             Self::LobeDepth => s.lobe_depth.map(|share| 100.0 * share),
             Self::Taper => s.taper.map(|share| 100.0 * share),
             Self::Asymmetry => Some(100.0 * s.asymmetry),
+            Self::Views => Some(s.scan.views.into()),
+            Self::Arc => Some(s.scan.arc_deg),
+            Self::PoseError => Some(s.scan.pose_noise_deg),
             Self::Noise => Some(10.0 * s.camera.noise_cm),
             Self::Holes => Some(100.0 * s.camera.dropout),
             Self::Leaf => Some(100.0 * s.leaf_cover),
@@ -263,6 +299,10 @@ impl Slider {
             Self::LobeDepth => s.lobe_depth = Some(value / 100.0),
             Self::Taper => s.taper = Some(value / 100.0),
             Self::Asymmetry => s.asymmetry = value / 100.0,
+            // A small whole number.
+            Self::Views => s.scan.views = value.round() as u32,
+            Self::Arc => s.scan.arc_deg = value,
+            Self::PoseError => s.scan.pose_noise_deg = value,
             Self::Noise => s.camera.noise_cm = value / 10.0,
             Self::Holes => s.camera.dropout = value / 100.0,
             Self::Leaf => s.leaf_cover = value / 100.0,

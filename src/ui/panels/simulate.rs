@@ -64,9 +64,12 @@ fn result(ui: &mut Ui, state: &State) {
         "Another cloud is shown.".to_owned()
     } else if let Some(walked) = &state.walked {
         let points = walked.fruit.cloud().len();
+        let seen = walked.fruit.truth.as_ref().and_then(|truth| truth.coverage);
+        let seen = seen.map(|share| format!(", {:.0} % of the surface seen", 100.0 * share));
+        let seen = seen.unwrap_or_default();
         match state.simulated_error_deg() {
-            Some(error) => format!("{error:.1}° off the true axis, {points} points"),
-            None => format!("No axis from {points} points"),
+            Some(error) => format!("{error:.1}° off the true axis, {points} points{seen}"),
+            None => format!("No axis from {points} points{seen}"),
         }
     } else {
         "No cloud yet.".to_owned()
