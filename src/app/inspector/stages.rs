@@ -38,7 +38,7 @@ impl Source {
         match self {
             Self::File(path) => path,
             Self::Bundled(sample) => Path::new(sample.path()),
-            Self::Simulated(_) => Path::new("<simulated>/pepper.ply"),
+            Self::Simulated(_) => Path::new("<simulated>/simulated_pepper.ply"),
         }
     }
 

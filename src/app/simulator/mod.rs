@@ -114,7 +114,7 @@ impl App {
     pub(super) fn simulate(&mut self, command: &SimulatorCommand) {
         let simulator = &self.context.state.simulator;
         let before = simulator.settings.as_deref();
-        let mut wanted = before.cloned().unwrap_or_default();
+        let mut wanted = before.cloned().unwrap_or_else(first);
         let mut moved = None;
         match *command {
             SimulatorCommand::Open => {}
@@ -123,7 +123,7 @@ impl App {
                 moved = Some(slider);
             }
             SimulatorCommand::Another => wanted = another(&wanted),
-            SimulatorCommand::Reset => wanted = PepperSettings::default(),
+            SimulatorCommand::Reset => wanted = first(),
         }
         match wanted.drawn() {
             Ok(settings) => self.context.set_simulated(Arc::new(settings), moved),
@@ -217,6 +217,16 @@ impl State {
         let axis = walked.analysis.axis.as_ref()?.direction;
         let truth = walked.fruit.truth.as_ref()?.axis.direction;
         Some(angle_between_lines_rad(axis, truth).to_degrees())
+    }
+}
+
+/// An upright pepper at a working distance, for the sliders to begin with.
+fn first() -> PepperSettings {
+    PepperSettings {
+        tilt_towards_camera_deg: Some(0.0),
+        tilt_sideways_deg: Some(0.0),
+        distance_cm: [60.0, 60.0],
+        ..PepperSettings::default()
     }
 }
 
