@@ -92,6 +92,9 @@ pub struct Analysis {
     pub params: Params,
     /// The used points and their normals.
     pub surface: Arc<Surface>,
+    /// The indices of the cloud's [`crate::geometry::strays`], ascending; they are left out of the used points
+    /// unless [`super::Filters::keep_strays`] is set.
+    pub strays: Arc<Vec<usize>>,
     /// The edge of the sample's cubes in the file's unit, if the used points are a sample (see
     /// [`super::Filters::max_points`]).
     pub sample_edge: Option<f64>,
@@ -126,6 +129,7 @@ impl Analysis {
         let mut analysis = Self {
             params: params.clone(),
             surface: used.surface.clone(),
+            strays: used.strays.clone(),
             sample_edge: used.sample.map(|sample| sample.edge),
             center,
             planes,

@@ -30,10 +30,13 @@ pub struct OutlierFilter {
     pub std_ratio: f64,
 }
 
-/// The filters of a cloud, in their order: outliers, voxel grid, and the sample of a cloud that is still
-/// too large. The first two are off by default.
+/// The filters of a cloud, in their order: strays, outliers, voxel grid, and the sample of a cloud that is
+/// still too large. Outliers and voxel grid are off by default.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Filters {
+    /// Whether [`crate::geometry::strays`], points far from all others, are analyzed with them.
+    #[serde(default)]
+    pub keep_strays: bool,
     /// The filter of statistical outliers.
     pub outliers: Option<OutlierFilter>,
     /// The edge of the voxel grid in centimeters, which leaves one point for each cube.
@@ -58,6 +61,7 @@ impl Filters {
 impl Default for Filters {
     fn default() -> Self {
         Self {
+            keep_strays: false,
             outliers: None,
             voxel_cm: None,
             max_points: Self::MOST,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{AnalysisError, Filters, NormalSource, Observe, Params, Stage, Surface, is_viewpoint_inside};
-use crate::geometry::{Cloud, Unit, statistical_inliers, voxel_edge_for, voxel_grid};
+use crate::geometry::{Cloud, Unit, statistical_inliers, strays, voxel_edge_for, voxel_grid, without};
 use crate::parallel::{Cancelled, Watch};
 
 /// The points that are left after the filters and have a normal, with the counts that the warnings
@@ -15,6 +15,10 @@ use crate::parallel::{Cancelled, Watch};
 pub(super) struct UsedPoints {
     /// The points and their normals.
     pub(super) surface: Arc<Surface>,
+    /// The indices of the strays in the cloud, ascending.
+    pub(super) strays: Arc<Vec<usize>>,
+    /// Points of the cloud, before the filters.
+    pub(super) all: usize,
     /// Points after the filters, before those without a normal are left out.
     pub(super) filtered: usize,
     /// The sampling that [`Filters::max_points`] asked for; `None` for a cloud that is small enough.
@@ -62,7 +66,8 @@ impl UsedPoints {
     /// them, or if the watch cancels the work.
     pub(super) fn new(cloud: &Cloud, params: &Params, observe: &dyn Observe) -> Result<Self, AnalysisError> {
         observe.entered(Stage::Filters);
-        let (filtered, sample) = filter(cloud, params, observe)?;
+        let (all, strays) = (cloud.len(), strays(cloud.positions()));
+        let (filtered, sample) = filter(cloud, &strays, params, observe)?;
         let cloud = filtered.as_ref().unwrap_or(cloud);
         observe.entered(Stage::Normals);
         let viewpoint = params.viewpoint;
@@ -74,6 +79,8 @@ impl UsedPoints {
             return Err(AnalysisError::ViewpointInsideCloud { viewpoint });
         }
         Ok(Self {
+            strays: Arc::new(strays),
+            all,
             filtered: cloud.len(),
             sample,
             facing_away: surface.facing_away(viewpoint),
@@ -85,16 +92,23 @@ impl UsedPoints {
 /// Returns the filtered cloud, or `None` if no filter changed it, and the sampling, if there was one.
 fn filter(
     cloud: &Cloud,
+    strays: &[usize],
     params: &Params,
     watch: &dyn Watch,
 ) -> Result<(Option<Cloud>, Option<Sample>), Cancelled> {
     let Filters {
+        keep_strays,
         outliers,
         voxel_cm,
         max_points,
     } = params.filters;
     let mut filtered = None;
+    if !(keep_strays || strays.is_empty()) {
+        let kept: Vec<usize> = without(strays, cloud.len()).collect();
+        filtered = Some(cloud.select(&kept));
+    }
     if let Some(outliers) = outliers {
+        let cloud = filtered.as_ref().unwrap_or(cloud);
         let inliers = statistical_inliers(cloud.positions(), outliers.neighbors, outliers.std_ratio, watch)?;
         filtered = Some(cloud.select(&inliers));
     }
