@@ -11,3 +11,5 @@ mod evaluating;
 mod evaluating_peduncle;
 mod exchanging;
 mod figures;
+mod hostile_input;
+mod writing;
