@@ -3,6 +3,8 @@
 use glam::{DVec3, IVec3};
 use rustc_hash::FxHashMap;
 
+use crate::parallel::{Cancelled, Watch};
+
 /// The fewest points among which strays can be told.
 const FEWEST: usize = 20;
 /// The distance from the cloud's middle, in radii of its inner half, up to which no point is a stray.
@@ -27,13 +29,19 @@ const FARTHEST_CELL: f64 = 1e6;
 ///
 /// There are none among fewer than 20 points, or where more than half of the points are equal.
 pub fn strays(points: &[DVec3]) -> Vec<usize> {
-    let Some((middle, radius)) = inner_half(points) else {
-        return Vec::new();
+    // Without a watch nothing is called off.
+    strays_watched(points, &()).unwrap_or_default()
+}
+
+/// [`strays`], called off by a watch.
+pub(crate) fn strays_watched(points: &[DVec3], watch: &dyn Watch) -> Result<Vec<usize>, Cancelled> {
+    let Some((middle, radius)) = inner_half(points, watch)? else {
+        return Ok(Vec::new());
     };
     let far = |p: &DVec3| chebyshev(*p - middle) > NEVER_WITHIN * radius;
     // Most clouds have no point that far out, and this is all that they cost.
     if !points.iter().any(far) {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     let edge = EDGE * radius;
     let cell = |p: &DVec3| {
@@ -41,21 +49,39 @@ pub fn strays(points: &[DVec3]) -> Vec<usize> {
         (place.abs().max_element() < FARTHEST_CELL).then(|| place.as_ivec3())
     };
     let mut cells: FxHashMap<IVec3, Cell> = FxHashMap::default();
-    for cell in points.iter().filter_map(cell) {
-        cells.entry(cell).or_default().points += 1;
+    for piece in points.chunks(PIECE) {
+        go_on(watch)?;
+        for cell in piece.iter().filter_map(cell) {
+            cells.entry(cell).or_default().points += 1;
+        }
     }
     let connecting = (CONNECTS * points.len() as f64).ceil() as usize;
     grow_bulk(&mut cells, connecting);
     let in_bulk = |p: &DVec3| cell(p).is_some_and(|cell| cells.get(&cell).is_some_and(|c| c.in_bulk));
-    (0..points.len())
-        .filter(|&i| far(&points[i]) && !in_bulk(&points[i]))
-        .collect()
+    let mut strays = Vec::new();
+    for from in (0..points.len()).step_by(PIECE) {
+        go_on(watch)?;
+        let piece = from..points.len().min(from + PIECE);
+        strays.extend(piece.filter(|&i| far(&points[i]) && !in_bulk(&points[i])));
+    }
+    Ok(strays)
 }
 
 /// The indices below `count` that are not among `strays`, which ascend.
 pub(crate) fn without(strays: &[usize], count: usize) -> impl Iterator<Item = usize> {
     let mut strays = strays.iter().copied().peekable();
     (0..count).filter(move |i| strays.next_if_eq(i).is_none())
+}
+
+/// Points between two questions to the watch: some hundredths of a second.
+const PIECE: usize = 1 << 20;
+
+fn go_on(watch: &dyn Watch) -> Result<(), Cancelled> {
+    if watch.is_cancelled() {
+        Err(Cancelled)
+    } else {
+        Ok(())
+    }
 }
 
 /// The points of one cell.
@@ -88,22 +114,27 @@ fn around(cell: IVec3) -> impl Iterator<Item = IVec3> {
 /// `None` if there are too few points or most are equal.
 ///
 /// Points at the very origin are not counted, since a depth camera writes its missing points there.
-fn inner_half(points: &[DVec3]) -> Option<(DVec3, f64)> {
+fn inner_half(points: &[DVec3], watch: &dyn Watch) -> Result<Option<(DVec3, f64)>, Cancelled> {
     if points.len() < FEWEST {
-        return None;
+        return Ok(None);
     }
     let measured = || points.iter().filter(|&&p| p != DVec3::ZERO);
     let mut column: Vec<f64> = Vec::with_capacity(points.len());
+    // The median of no values is zero, and so is the radius then.
     let mut median = |values: &mut dyn Iterator<Item = f64>| {
+        go_on(watch)?;
         column.clear();
         column.extend(values);
-        let rank = column.len().checked_sub(1)? / 2;
-        Some(*column.select_nth_unstable_by(rank, f64::total_cmp).1)
+        let rank = column.len().saturating_sub(1) / 2;
+        let found = (!column.is_empty()).then(|| *column.select_nth_unstable_by(rank, f64::total_cmp).1);
+        Ok(found.unwrap_or_default())
     };
-    let [x, y, z] = [0, 1, 2].map(|axis| median(&mut measured().map(|p| p[axis])));
-    let middle = DVec3::new(x?, y?, z?);
+    let mut middle = DVec3::ZERO;
+    for axis in 0..3 {
+        middle[axis] = median(&mut measured().map(|p| p[axis]))?;
+    }
     let radius = median(&mut measured().map(|&p| chebyshev(p - middle)))?;
-    (radius > 0.0 && radius.is_finite()).then_some((middle, radius))
+    Ok((radius > 0.0 && radius.is_finite()).then_some((middle, radius)))
 }
 
 /// The largest coordinate by amount, which does not overflow where squares would.

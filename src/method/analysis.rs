@@ -25,6 +25,25 @@ pub enum AnalysisError {
     /// No center was found.
     #[error(transparent)]
     Center(#[from] CenterError),
+    /// The cubes of the voxel grid are finer than coordinates are exact.
+    #[error("voxels of {edge_cm:e} cm are finer than its coordinates are exact; leave the voxel grid out")]
+    VoxelsTooFine {
+        /// The edge in centimeters.
+        edge_cm: f64,
+    },
+    /// The cubes of the voxel grid are so large that hardly a point is left.
+    #[error(
+        "voxels of {edge_cm} cm leave {left} of its {points} points, and at least {} are needed",
+        Surface::MIN_POINTS
+    )]
+    VoxelsTooLarge {
+        /// The edge in centimeters.
+        edge_cm: f64,
+        /// Points that are left.
+        left: usize,
+        /// Points before the voxel grid.
+        points: usize,
+    },
     /// One camera cannot have seen this from there.
     #[error(
         "the viewpoint ({:.4}, {:.4}, {:.4}) lies inside the cloud, so no camera there can have seen it; state where it was",

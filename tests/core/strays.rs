@@ -6,7 +6,7 @@ use axiscope::fruit::{parse_cloud, unit_guess};
 use axiscope::geometry::{Cloud, Extent, Unit, strays};
 use axiscope::method::{Analysis, Params, Preset, Warning, analyze, axis_error_rad};
 use axiscope::simulate::{DepthCamera, PepperSettings};
-use axiscope::view::ShownPoints;
+use axiscope::view::{Coloring, ShownPoints, Subject, color_points};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -154,6 +154,40 @@ fn simulated_and_stored_clouds_have_none() {
             .cloud;
         assert_eq!(strays(cloud.positions()), Vec::<usize>::new(), "{file}");
     }
+}
+
+#[test]
+fn strays_have_a_color_of_their_own() {
+    let (clean, _) = &PEPPERS[0];
+    let cloud = with_strays(clean, Kind::At(500.0), 7, 1);
+    let colored = |keep_strays| {
+        let mut params = Params::new(Preset::AsIntended, Unit::Centimeter);
+        params.filters.keep_strays = keep_strays;
+        let analysis = analyze(&cloud, &params, &()).expect("an analysis");
+        let shown = ShownPoints::new(&cloud, &analysis);
+        let subject = Subject {
+            shown: &shown,
+            analysis: &analysis,
+            detail: None,
+        };
+        let colored = color_points(subject, Coloring::Normal).expect("it has normals");
+        let swatches = colored.legend.swatches.iter().filter(|s| s.label == "stray");
+        let counts: Vec<_> = swatches
+            .map(|s| (s.color, s.count.map(|(count, _)| count)))
+            .collect();
+        (
+            counts,
+            shown
+                .strays
+                .iter()
+                .map(|&i| colored.colors[i])
+                .collect::<Vec<_>>(),
+        )
+    };
+    let (counts, colors) = colored(false);
+    assert_eq!(counts, [(colors[0], Some(7))]);
+    assert_eq!(colors, [colors[0]; 7]);
+    assert!(colored(true).0.is_empty(), "they have normals like any other");
 }
 
 #[test]
