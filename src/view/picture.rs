@@ -98,6 +98,9 @@ pub fn encode_picture(image: &Image, settings: &PictureSettings) -> Result<Vec<u
     Ok(bytes)
 }
 
+/// The longest settings that are read from a PNG, in bytes.
+const LONGEST_SETTINGS: usize = 1 << 20;
+
 /// The settings in a PNG of [`encode_picture`].
 ///
 /// # Errors
@@ -107,10 +110,10 @@ pub fn picture_settings(png_bytes: &[u8]) -> Result<PictureSettings, PictureErro
     // Other programs may put the text behind the pixels.
     reader.finish()?;
     let chunks = &reader.info().utf8_text;
-    let chunk = chunks
-        .iter()
-        .find(|c| c.keyword == SETTINGS_KEY)
-        .ok_or(PictureError::NoSettings)?;
+    let chunk = chunks.iter().find(|c| c.keyword == SETTINGS_KEY);
+    let mut chunk = chunk.ok_or(PictureError::NoSettings)?.clone();
+    // Compressed by another program, a text can grow a thousandfold.
+    chunk.decompress_text_with_limit(LONGEST_SETTINGS)?;
     Ok(serde_json::from_str(&chunk.get_text()?)?)
 }
 

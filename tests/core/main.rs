@@ -20,4 +20,5 @@ mod reading_units;
 mod reading_watched;
 mod sampling;
 mod simulating;
+mod strays;
 mod view;

@@ -10,4 +10,7 @@ mod command_line_other;
 mod evaluating;
 mod evaluating_peduncle;
 mod exchanging;
+mod extreme_numbers;
 mod figures;
+mod hostile_input;
+mod writing;
