@@ -154,6 +154,7 @@ impl EllipsoidSettings {
             viewpoint: DVec3::ZERO,
             without_peduncle: false,
             hidden_by_leaf: None,
+            coverage: None,
             settings: Settings::Ellipsoid(self.clone()),
         }
     }

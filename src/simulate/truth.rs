@@ -100,6 +100,10 @@ pub struct Truth {
     pub without_peduncle: bool,
     /// The fraction of the fruit's and the peduncle's pixels that a leaf hides, measured; `None` without a leaf.
     pub hidden_by_leaf: Option<f64>,
+    /// The fraction of the fruit's surface, without peduncle and leaf, that was seen from any view at less than the
+    /// camera's grazing angle; `None` in truths that were written before this was measured.
+    #[serde(default)]
+    pub coverage: Option<f64>,
     /// The kind of simulation and its settings.
     #[serde(flatten)]
     pub settings: Settings,

@@ -115,6 +115,7 @@ impl Drawn {
             viewpoint: DVec3::ZERO,
             without_peduncle: false,
             hidden_by_leaf,
+            coverage: None,
             settings: Settings::Pepper(Box::new(self.settings)),
         }
     }
