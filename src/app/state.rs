@@ -14,7 +14,7 @@ use crate::app::inspector::stages::{AnalyzedFruit, Source};
 use crate::app::many::state::{KeptMany, ManyState};
 use crate::app::true_axes::state::{KeptTrueAxes, TrueAxesState};
 use crate::app::workers::Progress;
-use crate::evaluate::reference_of;
+use crate::evaluate::{ErrorBreakdown, reference_of};
 use crate::fruit::Request;
 use crate::method::{Analysis, AxisEstimate, Params, PlaneDetail, PointDetail};
 use crate::render::{Camera, Viewport};
@@ -234,6 +234,13 @@ impl State {
         chosen
             .or_else(|| reference_of(&self.references, self.truth))
             .or(self.references.first())
+    }
+
+    /// The parts of the axis's error against the chosen reference. Takes O(u²).
+    pub fn error_breakdown(&self) -> Option<ErrorBreakdown> {
+        let (walked, reference) = (self.walked.as_ref()?, self.reference()?);
+        let given = walked.at_true_center.as_deref();
+        ErrorBreakdown::new(&walked.fruit, &walked.analysis, given, reference)
     }
 
     /// The detail of the plane that is drawn.

@@ -69,6 +69,41 @@ fn scoring_takes_effect_in_the_frame_that_asks_for_it() {
 }
 
 #[test]
+fn the_error_is_taken_apart_with_the_true_center_in_the_frame_that_asks_for_it() {
+    let mut app = with_sample();
+    let check = |app: &App| {
+        let walked = app.state().walked.as_ref().expect("analyzed");
+        let truth = walked.fruit.truth.as_ref().expect("a sample has its truth");
+        let params = walked.analysis.params.with_center(truth.center);
+        let direct = analyze(walked.fruit.cloud(), &params, &()).expect("a pepper");
+        assert_eq!(walked.at_true_center.as_deref(), Some(&direct));
+        let parts = app.state().error_breakdown().expect("there is a reference");
+        let choice = parts.choice_part_deg.expect("an axis");
+        let sum = parts.lean_part_deg + parts.grid_part_deg + choice;
+        assert!((sum - parts.error_deg.expect("an axis")).abs() < 1e-9);
+        assert!(parts.true_center.is_some());
+        parts
+    };
+    let before = check(&app);
+    let mut wanted = request(&app);
+    wanted.params.tau_cm_per_rad = 0.0;
+    wanted.params.aggregation = Aggregation::Sum;
+    app.apply(Command::Set {
+        request: Box::new(wanted),
+        gesture: None,
+    });
+    app.update(Duration::ZERO);
+    assert!(!app.state().is_stale);
+    let after = check(&app);
+    assert_eq!(
+        before.lean_part_deg, after.lean_part_deg,
+        "scores do not change it"
+    );
+    set(&mut app, |request| request.params.u = 9);
+    check(&app);
+}
+
+#[test]
 fn a_finer_grid_keeps_the_direction_that_is_looked_at() {
     let mut app = with_sample();
     act(&mut app, Command::LookAt(PlaneChoice::At { g: 2, h: 5 }));

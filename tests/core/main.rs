@@ -7,6 +7,7 @@ mod annotating;
 mod annotating_format;
 mod geometry;
 mod method_choices;
+mod method_error_parts;
 mod method_reference;
 mod method_stages;
 mod method_terms;

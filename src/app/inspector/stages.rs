@@ -113,6 +113,8 @@ pub struct AnalyzedFruit {
     pub shown: Arc<ShownPoints>,
     /// Its analysis.
     pub analysis: Arc<Analysis>,
+    /// The analysis with the simulator's center given, if the truth tells it.
+    pub at_true_center: Option<Arc<Analysis>>,
 }
 
 /// Why there is no analysis.
@@ -147,10 +149,16 @@ impl FruitStages {
             }
         };
         let stages = self.stages.as_ref().filter(is_kept)?;
-        let analysis = stages.analyze_kept(&request.params(&fruit))?;
+        let params = request.params(&fruit);
+        let analysis = stages.analyze_kept(&params)?;
+        let at_true_center = match &fruit.truth {
+            Some(truth) => Some(Arc::new(stages.analyze_kept(&params.with_center(truth.center))?)),
+            None => None,
+        };
         let shown = kept(self.shown.as_ref(), &ShownKey::new(request, &analysis))?;
         Some(AnalyzedFruit {
             analysis: Arc::new(analysis),
+            at_true_center,
             fruit,
             shown,
         })
@@ -199,7 +207,29 @@ impl FruitStages {
             fruit,
             shown,
             analysis,
+            at_true_center: None,
         })
+    }
+
+    /// Adds the analysis with the true center given, where the simulator's truth tells it, to one that
+    /// [`FruitStages::analyze`] has just made.
+    ///
+    /// # Errors
+    /// Returns an error if the work is cancelled.
+    pub fn with_true_center(
+        &mut self,
+        mut analyzed: AnalyzedFruit,
+        observe: &dyn Observe,
+    ) -> Result<AnalyzedFruit, AnalyzeError> {
+        if let (Some(truth), Some(stages)) = (&analyzed.fruit.truth, &mut self.stages) {
+            let params = analyzed.analysis.params.with_center(truth.center);
+            analyzed.at_true_center = match stages.analyze(&params, observe) {
+                Ok(analysis) => Some(Arc::new(analysis)),
+                Err(error) if error.is_cancelled() => return Err(AnalyzeError::Cancelled),
+                Err(_) => None,
+            };
+        }
+        Ok(analyzed)
     }
 
     fn fruit(&mut self, key: FruitKey, watch: &dyn Watch) -> Result<Arc<Fruit>, AnalyzeError> {

@@ -106,7 +106,8 @@ impl Inspector {
                 let _ = arrivals.send((wanted.source.clone(), fruit.clone(), shown));
                 repaint();
             };
-            let result = stages.analyze(&wanted.source, &wanted.request, watch, &arrived);
+            let analyzed = stages.analyze(&wanted.source, &wanted.request, watch, &arrived);
+            let result = analyzed.and_then(|analyzed| stages.with_true_center(analyzed, watch));
             (stages, result)
         });
         if let Some(result) = self.analyses.take_within(PATIENCE) {

@@ -263,6 +263,7 @@ impl State {
             &self.many.rows[place].name,
             &walked.fruit,
             &walked.analysis,
+            walked.at_true_center.as_deref(),
             &self.references,
             &self.warnings,
         );
