@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Estimate, EstimateError, Surface, paper};
+use super::{Estimate, EstimateError, Surface, body, paper};
 use crate::method::Analysis;
 use crate::parallel::Cancelled;
 use crate::parallel::Watch;
@@ -15,16 +15,19 @@ use crate::text::sentence;
 pub enum Estimator {
     /// The paper's: the best plane of the grid, and Eq. 16.
     Paper,
+    /// A nearly rotational body of unknown shape: spherical harmonics about the axis.
+    Body,
 }
 
 impl Estimator {
     /// All estimators, in the order of reports.
-    pub const ALL: &[Self] = &[Self::Paper];
+    pub const ALL: &[Self] = &[Self::Paper, Self::Body];
 
     /// Returns the name that the command line and reports use.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
+            Self::Body => "body",
         }
     }
 }
@@ -62,12 +65,12 @@ pub fn estimate(
     prior: Prior,
     watch: &dyn Watch,
 ) -> Result<Estimate, Cancelled> {
-    let _fitted = |run: fn(&Surface, Prior, &dyn Watch) -> Result<Estimate, EstimateError>| {
+    let fitted = |run: fn(&Surface, Prior, &dyn Watch) -> Result<Estimate, EstimateError>| {
         run(surface.as_ref().map_err(|error| *error)?, prior, watch)
     };
     let result = match estimator {
         Estimator::Paper => Ok(paper::estimate(analysis)),
-        // The others: Estimator::Plane => fitted(plane::estimate),
+        Estimator::Body => fitted(body::estimate),
     };
     match result {
         Err(EstimateError::Cancelled(cancelled)) => Err(cancelled),

@@ -7,6 +7,7 @@
 //! Lengths within this room are in centimeters, and positions are relative to the viewpoint: see [`Surface`]. An
 //! [`Estimate`] is in the file's unit and frame again.
 
+pub mod body;
 mod directions;
 mod estimator;
 mod least_squares;
