@@ -130,11 +130,8 @@ fn read_settings(path: &Path) -> anyhow::Result<PepperSettings> {
     if let Ok(truth) = serde_json::from_str::<Truth>(&text) {
         return match truth.settings {
             Settings::Pepper(settings) => Ok(*settings),
-            Settings::Ellipsoid(_) => {
-                anyhow::bail!(
-                    "{}: these are an ellipsoid's settings, not a pepper's",
-                    path.display()
-                )
+            Settings::Ellipsoid(_) | Settings::Mesh(_) => {
+                anyhow::bail!("{}: these are not a pepper's settings", path.display())
             }
         };
     }
