@@ -645,7 +645,9 @@ fn a_result_that_comes_after_its_cloud_was_left_is_not_shown_in_another_ones_pla
         })
         .collect();
     let (woken, wakes) = std::sync::mpsc::channel();
-    let repaint = std::sync::Arc::new(move || drop(woken.send(())));
+    let repaint = std::sync::Arc::new(move || {
+        let _ = woken.send(());
+    });
     let mut app = App::new(Session::first(), &(repaint as _)).expect("threads can be started");
     act(&mut app, Command::Open(files));
     act(&mut app, Command::Show(0));
