@@ -92,6 +92,8 @@ pub enum Command {
     Project(Projection),
     /// Take a tool.
     Use(Tool),
+    /// Take the eye of the view as the viewpoint `p_v` of the method.
+    LookFromHere,
     /// Put the fruit center somewhere, in the file's unit and frame.
     MoveCenter(DVec3),
     /// Pick the peduncle.

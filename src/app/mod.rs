@@ -38,6 +38,7 @@ use context::{Context, Step};
 use inspector::Inspector;
 use many::{Many, ManyState};
 use peduncle::PeduncleTools;
+use simulator::Simulator;
 use true_axes::TrueAxes;
 use workers::{Pool, Repaint};
 
@@ -61,6 +62,7 @@ pub struct App {
     peduncle: PeduncleTools,
     true_axes: TrueAxes,
     many: Many,
+    simulator: Simulator,
 }
 
 impl App {
@@ -82,6 +84,7 @@ impl App {
             peduncle: PeduncleTools::new(pool),
             true_axes: TrueAxes::new(pool),
             many: Many::new(pool),
+            simulator: Simulator::new(pool),
         })
     }
 
@@ -115,7 +118,7 @@ impl App {
                 }
             }
             Command::Close => self.close(),
-            Command::Simulate(command) => self.simulate(&command),
+            Command::Simulate(command) => self.simulate(command),
 
             Command::EndGesture => cx.undo.end_gesture(),
             Command::Undo => self.travel(History::undo),
@@ -165,7 +168,10 @@ impl App {
 
     /// Whether somebody waits for a result: the background's work on all clouds does not count.
     pub fn is_current_busy(&self) -> bool {
-        self.inspector.is_busy() || self.peduncle.is_busy() || self.true_axes.is_busy()
+        self.inspector.is_busy()
+            || self.peduncle.is_busy()
+            || self.true_axes.is_busy()
+            || self.simulator.is_busy()
     }
 
     /// Waits until every edit of an axis is written.

@@ -89,6 +89,8 @@ pub struct State {
     pub walked: Option<Arc<AnalyzedFruit>>,
     /// A cloud that was read but not analyzed, and why: `None` where it only is not yet.
     pub unanalyzed: Option<(Arc<ShownPoints>, Option<String>)>,
+    /// Whether it was not analyzed because the viewpoint lies among its points, as that of a whole scan does.
+    pub is_viewpoint_inside: bool,
     /// The axes to compare with.
     pub references: Vec<AxisEstimate>,
     /// The one that the error is measured against.
@@ -152,6 +154,7 @@ impl State {
             can_redo: false,
             walked: None,
             unanalyzed: None,
+            is_viewpoint_inside: false,
             references: Vec::new(),
             truth: TruthChoice::Peduncle,
             warnings: Vec::new(),

@@ -669,3 +669,41 @@ fn a_result_that_comes_after_its_cloud_was_left_is_not_shown_in_another_ones_pla
     let moved = app.state().camera.pivot_in_world - pivot_of_first;
     assert!((moved.x + 40.0).abs() < 2.0, "the camera moved by {moved}");
 }
+
+#[test]
+fn a_whole_scan_is_shown_and_can_be_looked_at_from_where_the_eye_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("whole.ply");
+    let settings = axiscope::simulate::EllipsoidSettings {
+        center_cm: DVec3::new(0.0, 0.0, 60.0),
+        ..Default::default()
+    };
+    let mut simulated = settings.simulate().expect("an ellipsoid");
+    // Both halves about the origin, where the viewpoint is.
+    let mut points: Vec<DVec3> = simulated
+        .cloud
+        .positions()
+        .iter()
+        .map(|p| *p - DVec3::Z * 60.0)
+        .collect();
+    points.extend(points.clone().iter().map(|p| -*p));
+    simulated.cloud = axiscope::geometry::Cloud::new(points);
+    let mut bytes = Vec::new();
+    axiscope::ply::write(
+        &mut bytes,
+        &simulated.cloud,
+        &axiscope::ply::WriteOptions::default(),
+    )
+    .expect("memory");
+    std::fs::write(&path, bytes).expect("a file");
+    let mut app = app();
+    act(&mut app, Command::Open(vec![path]));
+    assert!(app.state().is_viewpoint_inside && app.state().analysis().is_none());
+    assert!(app.state().look.is_some(), "it is shown");
+    act(&mut app, Command::LookFromHere);
+    assert!(!app.state().is_viewpoint_inside);
+    let analysis = app.state().analysis().expect("analyzed");
+    assert_eq!(analysis.params.viewpoint, app.state().camera.eye_in_world);
+    act(&mut app, Command::Undo);
+    assert!(app.state().is_viewpoint_inside);
+}

@@ -60,7 +60,7 @@ fn the_cloud_its_analysis_and_its_error_follow_a_slider() {
 fn the_errors_kept_are_those_over_one_slider_with_all_else_equal() {
     let mut app = app();
     simulate(&mut app, SimulatorCommand::Open);
-    lean(&mut app, 0.0);
+    lean(&mut app, 5.0);
     lean(&mut app, 10.0);
     let count = |app: &App| app.state().simulator.trail.points().len();
     assert_eq!(count(&app), 3, "with the lean before");
@@ -142,4 +142,33 @@ fn every_slider_gives_a_pepper_at_both_ends() {
                 .unwrap_or_else(|error| panic!("{slider:?} {value}: {error}"));
         }
     }
+}
+
+#[test]
+fn a_saved_pepper_is_the_one_that_was_shown() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.ply");
+    let mut app = app();
+    simulate(&mut app, SimulatorCommand::Open);
+    lean(&mut app, 15.0);
+    let error = app.state().simulated_error_deg();
+    simulate(&mut app, SimulatorCommand::Save(path.clone()));
+    let text = app.state().messages.last().map(|m| m.text.clone()).expect("told");
+    assert!(text.starts_with("Saved ") && text.contains("mine.ply"), "{text}");
+    act(&mut app, Command::Open(vec![path]));
+    let walked = app.state().walked.as_ref().expect("analyzed");
+    let truth = walked.fruit.truth.as_ref().expect("it lies beside the cloud");
+    let axis = walked.analysis.axis.as_ref().expect("an axis").direction;
+    let read = angle_between_lines_rad(axis, truth.axis.direction).to_degrees();
+    // A file holds single precision.
+    assert!((read - error.expect("an axis")).abs() < 0.01);
+
+    let nowhere = folder.path().join("no/such/folder.ply");
+    simulate(&mut app, SimulatorCommand::Save(nowhere));
+    let message = app.state().messages.last().expect("told");
+    assert!(
+        message.is_error && message.text.contains("folder.ply"),
+        "{}",
+        message.text
+    );
 }

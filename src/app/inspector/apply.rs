@@ -30,6 +30,11 @@ impl Inspector {
             Command::Resume => self.asked = None,
             Command::Set { request, gesture } => cx.set_request(*request, gesture),
             Command::UsePreset(preset) => use_preset(cx, preset),
+            Command::LookFromHere => {
+                let mut request = state.settings.request.clone();
+                request.params.viewpoint = state.camera.eye_in_world;
+                cx.set_request(request, None);
+            }
             Command::MoveCenter(center) => {
                 let mut request = state.settings.request.clone();
                 request.params.center = CenterMethod::Given(center);

@@ -13,6 +13,7 @@ use crate::app::state::{PlaneChoice, State};
 use crate::app::workers::{Crashed, PATIENCE};
 use crate::evaluate::collect_references;
 use crate::fruit::Fruit;
+use crate::method::AnalysisError;
 use crate::parallel::Cancelled;
 use crate::text::sentence;
 use crate::view::pick_point;
@@ -160,6 +161,7 @@ impl Inspector {
                 set_problem(&mut cx.state, Some(sentence(&error.to_string())));
                 cx.state.warnings.clone_from(&fruit.warnings);
                 self.forget_analysis(cx);
+                cx.state.is_viewpoint_inside = matches!(error, AnalysisError::ViewpointInsideCloud { .. });
                 cx.state.set_subject(&fruit, &shown);
                 let name = cx.state.source().map(Source::name).unwrap_or_default();
                 cx.state.unanalyzed = Some((shown, Some(sentence(&format!("{name}: {error}")))));
@@ -204,6 +206,7 @@ impl Inspector {
         (state.references, state.warnings) = (references, warnings);
         cx.pool.discard(state.walked.replace(Arc::new(walked)));
         cx.pool.discard(state.unanalyzed.take());
+        state.is_viewpoint_inside = false;
         state.is_stale = false;
         state.take_current_row();
     }
@@ -213,6 +216,7 @@ impl Inspector {
         self.details.clear();
         cx.pool.discard(state.walked.take());
         cx.pool.discard(state.unanalyzed.take());
+        state.is_viewpoint_inside = false;
         state.references.clear();
         state.is_stale = false;
         state.previewed = None;

@@ -7,8 +7,9 @@ mod sliders;
 mod trail;
 
 use std::hash::{Hash, Hasher};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 use sha2::{Digest, Sha256};
 
@@ -16,9 +17,11 @@ use super::App;
 use super::context::{Context, Step};
 use super::inspector::stages::Source;
 use super::state::{PlaneChoice, State};
-use crate::fruit::{CloudFile, ReadError};
+use super::workers::{Pool, Queue};
+use crate::files::write_all;
+use crate::fruit::{CloudFile, ReadError, simulated_files};
 use crate::geometry::{Unit, angle_between_lines_rad};
-use crate::ply::PlyCloud;
+use crate::ply::{Encoding, PlyCloud};
 use crate::simulate::PepperSettings;
 use crate::text::sentence;
 
@@ -107,16 +110,45 @@ pub enum SimulatorCommand {
     Another,
     /// Go back to the settings of the first pepper.
     Reset,
+    /// Write the pepper of the sliders to a PLY file, and its truth beside it.
+    Save(PathBuf),
+}
+
+/// The jobs of the simulator.
+pub(super) struct Simulator {
+    saves: Queue<(), Result<String, String>>,
+}
+
+impl Simulator {
+    pub(super) fn new(pool: &Pool) -> Self {
+        Self {
+            saves: Queue::new(pool, ()),
+        }
+    }
+
+    pub(super) fn is_busy(&self) -> bool {
+        self.saves.is_busy()
+    }
+}
+
+/// Writes a simulated pepper and its truth; returns what was done, or why not, in a sentence.
+fn save(settings: &PepperSettings, path: &Path) -> Result<String, String> {
+    let failed = |error: &dyn std::fmt::Display| format!("{}: {error}.", path.display());
+    let simulated = settings.simulate().map_err(|error| failed(&error))?;
+    let both = simulated_files(path, &simulated, Unit::Centimeter, Encoding::default());
+    let both = both.map_err(|error| failed(&error))?;
+    write_all(&both).map_err(|error| format!("{error}."))?;
+    Ok(format!("Saved {} and its truth beside it.", path.display()))
 }
 
 impl App {
     /// Does what the panel *Simulate* asks for. Every command but one that fails shows the simulated pepper.
-    pub(super) fn simulate(&mut self, command: &SimulatorCommand) {
+    pub(super) fn simulate(&mut self, command: SimulatorCommand) {
         let simulator = &self.context.state.simulator;
         let before = simulator.settings.as_deref();
         let mut wanted = before.cloned().unwrap_or_else(first);
         let mut moved = None;
-        match *command {
+        match command {
             SimulatorCommand::Open => {}
             SimulatorCommand::Move(slider, value) => {
                 slider.set(&mut wanted, value);
@@ -124,6 +156,10 @@ impl App {
             }
             SimulatorCommand::Another => wanted = another(&wanted),
             SimulatorCommand::Reset => wanted = first(),
+            SimulatorCommand::Save(path) => {
+                self.simulator.saves.submit(move |()| save(&wanted, &path));
+                return;
+            }
         }
         match wanted.drawn() {
             Ok(settings) => self.context.set_simulated(Arc::new(settings), moved),
@@ -154,6 +190,9 @@ impl App {
     /// Lets the cloud in the view follow the sliders, and keeps its error: once a frame. A cloud that is on its way is
     /// waited for, so that something is seen while a slider moves on.
     pub(super) fn update_simulated(&mut self) {
+        while let Some((_, result)) = self.simulator.saves.take_within(Duration::ZERO) {
+            self.context.say_result(result);
+        }
         let is_computing = self.inspector.is_computing();
         let state = &mut self.context.state;
         let (Some(settings), true) = (state.simulator.settings.clone(), state.shows_simulated()) else {

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use axiscope::files;
+use axiscope::fruit::simulated_files;
 use axiscope::geometry::Unit;
-use axiscope::ply::{self, Encoding, WriteOptions};
+use axiscope::ply::Encoding;
 use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, seeds};
 use clap::{Args, Subcommand};
 use glam::DVec3;
@@ -208,29 +209,11 @@ fn write_all<S>(
 
 /// Writes `NAME.ply` and `NAME.truth.json`, both whole or not at all; to standard output or a device only the cloud.
 fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::Result<()> {
-    let simulated = simulated.clone().in_unit(output.unit);
-    let truth = &simulated.truth;
-    let comments = [format!(
-        "simulated by axiscope {}, seed {}",
-        truth.program_version, truth.seed
-    )];
-    let mut bytes = Vec::new();
-    let options = WriteOptions {
-        unit: Some(output.unit),
-        comments: &comments,
-        encoding: output.encoding,
-        ..WriteOptions::default()
-    };
-    ply::write(&mut bytes, &simulated.cloud, &options)?;
+    let both = simulated_files(path, simulated, output.unit, output.encoding)?;
     if !has_name(path) {
-        return super::output::write(path, &bytes);
+        return super::output::write(path, &both[0].1);
     }
-    let json = serde_json::to_string_pretty(truth)? + "\n";
-    let truth_path = path.with_extension("truth.json");
-    Ok(files::write_all(&[
-        (path, bytes.as_slice()),
-        (&truth_path, json.as_bytes()),
-    ])?)
+    Ok(files::write_all(&both)?)
 }
 
 /// Whether a path names a regular file, there or yet to be written, so that another can stand beside it: not standard

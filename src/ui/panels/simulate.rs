@@ -5,6 +5,7 @@ use egui_plot::{GridMark, Line, Plot, PlotBounds, Points};
 
 use crate::app::{Command, SimulatorCommand, Slider, SliderGroup, State};
 use crate::simulate::PepperSettings;
+use crate::ui::action::WindowAct;
 use crate::ui::widgets::controls::{Number, hint, section, small};
 
 /// The width of the labels, in logical pixels.
@@ -16,8 +17,9 @@ const CHART_HEIGHT: f32 = 132.0;
 const LINE: Color32 = Color32::from_rgb(0x2b, 0x8c, 0xd6);
 const NOW: Color32 = Color32::from_rgb(0xe6, 0x9f, 0x00);
 
-/// Draws the panel.
-pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+/// Draws the panel; returns what the window is to ask for.
+pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<WindowAct> {
+    let mut asked = None;
     let mut say = |command| commands.push(Command::Simulate(command));
     let Some(settings) = &state.simulator.settings else {
         hint(
@@ -29,7 +31,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         if ui.button("Simulate a pepper").clicked() {
             say(SimulatorCommand::Open);
         }
-        return;
+        return None;
     };
     ui.spacing_mut().item_spacing.y = 4.0;
     ui.horizontal(|ui| {
@@ -40,6 +42,10 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         let tip = "Goes back to the first pepper and the camera's own noise.";
         if ui.button("Reset").on_hover_text(tip).clicked() {
             say(SimulatorCommand::Reset);
+        }
+        let tip = "Saves the cloud as a PLY file, and its truth beside it.";
+        if ui.button("Save …").on_hover_text(tip).clicked() {
+            asked = Some(WindowAct::SaveSimulated);
         }
         if !state.shows_simulated() && ui.button("Show it").clicked() {
             say(SimulatorCommand::Open);
@@ -56,6 +62,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             }
         });
     }
+    asked
 }
 
 /// Shows the error of the cloud in the view, in two lines whose height never changes.

@@ -35,6 +35,7 @@ impl Window {
                 self.act(ctx, WindowAct::Show(Pane::Simulate));
                 self.app.apply(Command::Simulate(SimulatorCommand::Open));
             }
+            WindowAct::SaveSimulated => dialogs::save_simulated(ctx, &answers),
             WindowAct::SaveImage => self.saving = Some(SaveImage::new(view_size(self.app.state()))),
             WindowAct::SaveImageOf(size_px) => {
                 let name = self.app.state().source().map(|s| s.path().with_extension("png"));

@@ -146,7 +146,8 @@ impl Panes<'_> {
             }
             Pane::Simulate => {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                    simulate::show(ui, state, commands);
+                    let asked = simulate::show(ui, state, commands);
+                    self.acts.extend(asked.map(Act::Window));
                 });
             }
             Pane::TrueAxes => {
