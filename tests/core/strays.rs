@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use axiscope::fruit::{parse_cloud, unit_guess};
 use axiscope::geometry::{Cloud, Extent, Unit, strays};
 use axiscope::method::{Analysis, Params, Preset, Warning, analyze, axis_error_rad};
+use axiscope::peduncle::Peduncle;
 use axiscope::simulate::{DepthCamera, PepperSettings};
 use axiscope::view::{Coloring, ShownPoints, Subject, color_points};
 use glam::DVec3;
@@ -154,6 +155,18 @@ fn simulated_and_stored_clouds_have_none() {
             .cloud;
         assert_eq!(strays(cloud.positions()), Vec::<usize>::new(), "{file}");
     }
+}
+
+#[test]
+fn strays_are_no_part_of_the_peduncle_whatever_their_label() {
+    let clean = &PEPPERS[0].0;
+    let expected = Peduncle::by_label(clean).expect("a peduncle");
+    let mut points = clean.positions().to_vec();
+    let mut labels = clean.labels().expect("labels").to_vec();
+    points.extend([DVec3::splat(400.0), DVec3::splat(-1e9)]);
+    labels.extend([Cloud::PEDUNCLE; 2]);
+    let cloud = Cloud::new(points).with_labels(labels).expect("one each");
+    assert_eq!(Peduncle::by_label(&cloud), Ok(expected));
 }
 
 #[test]
