@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use super::many::commands::ManyCommand;
 use super::peduncle::commands::PeduncleCommand;
 use super::samples::Sample;
+use super::simulator::SimulatorCommand;
 use super::state::PlaneChoice;
 use super::tool::Tool;
 use super::true_axes::commands::TrueAxesCommand;
@@ -30,6 +31,8 @@ pub enum Command {
     Go(isize),
     /// Take the current cloud off the list.
     Close,
+    /// Something about the simulated pepper.
+    Simulate(SimulatorCommand),
     /// Read the current cloud again.
     Reload,
 

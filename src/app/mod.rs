@@ -20,6 +20,7 @@ pub mod many;
 pub mod peduncle;
 mod samples;
 mod session;
+mod simulator;
 mod state;
 mod tool;
 pub mod true_axes;
@@ -48,6 +49,7 @@ pub use inspector::stages::{AnalyzedFruit, Source};
 pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};
+pub use simulator::{SimulatedPepper, SimulatorCommand, SimulatorState, Slider, SliderGroup, Trail};
 pub use state::{Entry, Message, PlaneChoice, Settings, State, TruthChoice};
 pub use tool::Tool;
 pub use true_axes::{TrueAxesCommand, TrueAxesState};
@@ -113,6 +115,7 @@ impl App {
                 }
             }
             Command::Close => self.close(),
+            Command::Simulate(command) => self.simulate(&command),
 
             Command::EndGesture => cx.undo.end_gesture(),
             Command::Undo => self.travel(History::undo),
@@ -139,10 +142,11 @@ impl App {
     /// Takes what the jobs have made, and asks for what is wanted now: to be called once a frame. `elapsed` is the time
     /// since the last call.
     pub fn update(&mut self, elapsed: Duration) {
-        let cx = &mut self.context;
-        self.many.update(elapsed, cx);
+        self.many.update(elapsed, &mut self.context);
         // The background waits while a frame may wait for the current cloud.
         self.many.set_yielding(true);
+        self.update_simulated();
+        let cx = &mut self.context;
         self.inspector.update(elapsed, cx);
         self.true_axes.update(cx);
         self.inspector.update_view(cx);
@@ -205,6 +209,11 @@ impl App {
             Some(Step::Settings(settings)) => {
                 std::mem::swap(&mut **settings, &mut cx.state.settings);
                 cx.state.previewed = None;
+            }
+            Some(Step::Simulated(settings)) => {
+                if let Some(present) = &mut cx.state.simulator.settings {
+                    std::mem::swap(settings, present);
+                }
             }
             Some(Step::Tags { path, tagged }) => {
                 let now = self.many.tagged(&cx.state.many.rows, path);

@@ -129,7 +129,7 @@ impl Session {
             .enumerate()
             .filter_map(|(i, entry)| match &entry.source {
                 Source::File(path) => Some((i, std::path::absolute(path).unwrap_or_else(|_| path.clone()))),
-                Source::Bundled(_) => None,
+                Source::Bundled(_) | Source::Simulated(_) => None,
             })
             .collect();
         Self {

@@ -7,13 +7,14 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::peduncle::state::PeduncleState;
+use super::simulator::SimulatorState;
 use super::tool::Tool;
 use crate::app::inspector::look::Look;
 use crate::app::inspector::stages::{AnalyzedFruit, Source};
 use crate::app::many::state::{KeptMany, ManyState};
 use crate::app::true_axes::state::{KeptTrueAxes, TrueAxesState};
 use crate::app::workers::Progress;
-use crate::evaluate::reference_of;
+use crate::evaluate::{ErrorBreakdown, reference_of};
 use crate::fruit::Request;
 use crate::method::{Analysis, AxisEstimate, Params, PlaneDetail, PointDetail};
 use crate::render::{Camera, Viewport};
@@ -118,6 +119,8 @@ pub struct State {
     pub pixels_per_point: f32,
     /// The tool of the left mouse button.
     pub tool: Tool,
+    /// The simulated pepper.
+    pub simulator: SimulatorState,
     /// Picking the peduncle.
     pub peduncle: PeduncleState,
     /// The picked point, by its index among the shown ones.
@@ -164,6 +167,7 @@ impl State {
             viewport: Viewport::new(800.0, 600.0),
             pixels_per_point: 1.0,
             tool: Tool::Navigate,
+            simulator: SimulatorState::default(),
             peduncle: PeduncleState::default(),
             picked: None,
             pointed_at: None,
@@ -230,6 +234,13 @@ impl State {
         chosen
             .or_else(|| reference_of(&self.references, self.truth))
             .or(self.references.first())
+    }
+
+    /// The parts of the axis's error against the chosen reference. Takes O(u²).
+    pub fn error_breakdown(&self) -> Option<ErrorBreakdown> {
+        let (walked, reference) = (self.walked.as_ref()?, self.reference()?);
+        let given = walked.at_true_center.as_deref();
+        ErrorBreakdown::new(&walked.fruit, &walked.analysis, given, reference)
     }
 
     /// The detail of the plane that is drawn.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Examination, TruthChoice, peduncle_disagreement_deg, reference_of};
+use super::{ErrorBreakdown, Examination, TruthChoice, peduncle_disagreement_deg, reference_of};
 use crate::fruit::Request;
 use crate::geometry::Unit;
 use crate::method::{Aggregation, AxisEstimate, CenterMethod, NormalSource, Params, axis_error_rad};
@@ -25,6 +25,7 @@ pub struct AnalysisReport {
     reference: Option<ReferenceReport>,
     references: Vec<ReferenceReport>,
     peduncle_disagreement_deg: Option<f64>,
+    error_parts: Option<ErrorBreakdown>,
     warnings: Vec<String>,
     timings_ms: Timings,
 }
@@ -121,12 +122,13 @@ struct ReferenceReport {
 
 impl AnalysisReport {
     /// Creates a report. `path` is the cloud's file as the user named it, and `seed` the given seed, whether it is
-    /// used or not.
+    /// used or not. The error against the reference `truth` is taken apart.
     pub fn new(
         path: &Path,
         request: &Request,
         seed: u64,
         examined: &Examination,
+        truth: TruthChoice,
         timings_ms: Timings,
     ) -> Self {
         let Examination {
@@ -189,6 +191,7 @@ impl AnalysisReport {
             reference: reference.map(reported),
             references: references.iter().map(reported).collect(),
             peduncle_disagreement_deg: peduncle_disagreement_deg(references),
+            error_parts: reference_of(references, truth).and_then(|r| examined.error_breakdown(r)),
             warnings: warnings.clone(),
             timings_ms,
         }

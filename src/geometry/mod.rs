@@ -29,5 +29,5 @@ pub use spread::Spread;
 pub use strays::strays;
 pub(crate) use strays::{strays_watched, without};
 pub use unit::Unit;
-pub(crate) use voxels::{near_one_another, voxel_grid_watched};
+pub(crate) use voxels::{by_cell, near_one_another, voxel_grid_watched};
 pub use voxels::{voxel_edge_for, voxel_grid};

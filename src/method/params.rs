@@ -182,6 +182,15 @@ impl Params {
         }
     }
 
+    /// The same parameters with the fruit center given, in the file's unit and frame.
+    #[must_use]
+    pub fn with_center(&self, center: DVec3) -> Self {
+        Self {
+            center: CenterMethod::Given(center),
+            ..self.clone()
+        }
+    }
+
     /// The preset whose reading of the paper these parameters follow, or `None` for a mixture ("custom").
     /// The reading is the method of the center, the aggregation and the least partner fraction; u, τ and
     /// the rest are numbers that the paper leaves free.

@@ -202,7 +202,9 @@ impl Peduncle {
     fn of_points(cloud: &Cloud, source: PeduncleSource, is_peduncle: impl Fn(usize) -> bool) -> Option<Self> {
         // Whatever a stray's label or color: far from the fruit it is no part of it, and would pull the mean away.
         let strays = strays(cloud.positions());
-        let in_cloud = without(&strays, cloud.len()).filter(|&i| is_peduncle(i)).collect();
+        let in_cloud = without(&strays, cloud.len())
+            .filter(|&i| is_peduncle(i))
+            .collect();
         Self::of_indices(cloud, source, in_cloud)
     }
 

@@ -8,6 +8,7 @@ mod annotating_format;
 mod calling_off;
 mod geometry;
 mod method_choices;
+mod method_error_parts;
 mod method_reference;
 mod method_stages;
 mod method_terms;

@@ -8,6 +8,7 @@ mod annotating_killed;
 mod command_line;
 mod command_line_other;
 mod evaluating;
+mod evaluating_parts;
 mod evaluating_peduncle;
 mod exchanging;
 mod extreme_numbers;

@@ -89,6 +89,7 @@ impl Inspector {
             | Command::TrueAxes(_)
             | Command::Scale(_)
             | Command::Dismiss(_)
+            | Command::Simulate(_)
             | Command::Say { .. } => {}
         }
     }

@@ -106,7 +106,8 @@ impl Inspector {
                 let _ = arrivals.send((wanted.source.clone(), fruit.clone(), shown));
                 repaint();
             };
-            let result = stages.analyze(&wanted.source, &wanted.request, watch, &arrived);
+            let analyzed = stages.analyze(&wanted.source, &wanted.request, watch, &arrived);
+            let result = analyzed.and_then(|analyzed| stages.with_true_center(analyzed, watch));
             (stages, result)
         });
         if let Some(result) = self.analyses.take_within(PATIENCE) {
@@ -137,7 +138,10 @@ impl Inspector {
             Ok((stages, result)) => {
                 let before = std::mem::replace(&mut cx.stages, stages);
                 cx.pool.discard(Some(before));
-                self.accept(result, cx);
+                // A cloud that was left meanwhile is not shown, nor its error said, in the place of the current one.
+                if self.asked.as_ref().map(|key| &key.source) == cx.state.source() {
+                    self.accept(result, cx);
+                }
             }
             Err(Crashed(fault)) => {
                 cx.say(
@@ -167,7 +171,11 @@ impl Inspector {
                 // It begins with a file's name, whose letters stay as they are.
                 cx.say(true, format!("{error}."));
             }
-            Err(AnalyzeError::Cancelled) => cx.state.was_cancelled = true,
+            // The cloud before may still be shown, and keeps its view.
+            Err(AnalyzeError::Cancelled) => {
+                cx.state.was_cancelled = true;
+                return;
+            }
         }
         self.frame_if_new(&mut cx.state);
     }

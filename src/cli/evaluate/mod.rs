@@ -9,7 +9,7 @@ use std::str::FromStr;
 
 use anyhow::Context;
 use axiscope::evaluate::{
-    Reuse, Row, RowStore, Runner, StoreKind, StoredRow, Summary, Sweep, TruthChoice, add_tags,
+    MeanParts, Reuse, Row, RowStore, Runner, StoreKind, StoredRow, Summary, Sweep, TruthChoice, add_tags,
     annotation_files, read_tags, result_files,
 };
 use axiscope::files::write_all;
@@ -206,6 +206,27 @@ fn write_summary(out: &mut impl Write, summary: &Summary) -> std::io::Result<()>
         .map(percent)
         .join(", "),
     )?;
+    if let Some(parts) = &summary.error_parts {
+        let MeanParts {
+            clouds,
+            error_deg,
+            lean_part_deg: lean,
+            grid_part_deg: grid,
+            choice_part_deg: choice,
+            ..
+        } = parts;
+        let text = format!(
+            "{error_deg:.2}° = {lean:.2}° lean + {grid:.2}° grid + {choice:.2}° choice of the plane (means of {clouds})"
+        );
+        row("Error's parts", text)?;
+        if let Some(given) = &parts.true_center {
+            let text = format!(
+                "{:.2}° with the true center given, which is {:.2} cm from the computed one",
+                given.error_true_center_deg, given.center_distance_cm
+            );
+            row("", text)?;
+        }
+    }
     for (reason, count) in &summary.failures {
         row("No error", format!("{count} × {reason}"))?;
     }

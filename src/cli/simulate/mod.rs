@@ -1,5 +1,6 @@
 //! `axiscope simulate`: clouds with a known axis, with the truth about each in a file beside it.
 
+mod camera;
 mod pepper;
 
 use std::path::{Path, PathBuf};
@@ -72,6 +73,13 @@ struct Ellipsoid {
     /// Standard deviation of a depth at 40 cm, in cm; it grows with the square of the distance
     #[arg(long, value_name = "CM", default_value_t = 0.0, value_parser = number, allow_hyphen_values = true)]
     noise_cm: f64,
+}
+
+/// Sets a field if its option is given.
+fn set<T>(field: &mut T, option: Option<T>) {
+    if let Some(value) = option {
+        *field = value;
+    }
 }
 
 pub(super) fn run(args: &Simulate) -> anyhow::Result<()> {
