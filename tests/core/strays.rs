@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use axiscope::estimate::Surface;
 use axiscope::fruit::{parse_cloud, unit_guess};
 use axiscope::geometry::{Cloud, Extent, Unit, strays};
 use axiscope::method::{Analysis, Params, Preset, Warning, analyze, axis_error_rad};
@@ -98,6 +99,8 @@ proptest! {
         let unit = |cloud: &Cloud| unit_guess::resolve(cloud, None).0;
         prop_assert_eq!(unit(&cloud), unit(clean));
         prop_assert_eq!(Extent::robust(cloud.positions()), Extent::robust(clean.positions()));
+        let surface = |cloud: &Cloud| Surface::new(cloud.positions(), Unit::Centimeter, DVec3::ZERO, &()).ok();
+        prop_assert!(surface(&cloud).is_some() && surface(&cloud) == surface(clean), "other estimators");
         let shown = ShownPoints::new(&cloud, &found);
         prop_assert_eq!(&shown.strays, &*found.strays);
         prop_assert!(shown.local_positions.iter().all(|p| p.is_finite()));
