@@ -101,7 +101,12 @@ impl Files for DiskFiles {
             path.to_owned()
         };
         let aside = beside(&target, ".tmp");
-        let mut file = File::create(&aside)?;
+        // One that a killed program has left; or a link that would lead elsewhere.
+        match std::fs::remove_file(&aside) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+        let mut file = OpenOptions::new().write(true).create_new(true).open(&aside)?;
         let written = file.write_all(bytes).and_then(|()| file.sync_all());
         drop(file);
         let done = written.and_then(|()| std::fs::rename(&aside, &target));

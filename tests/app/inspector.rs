@@ -7,7 +7,7 @@ use crate::helpers::driving::{act, app, asset, settle, with_sample};
 use axiscope::app::command_line;
 use axiscope::app::{App, Command, PlaneChoice, Sample, Session, SessionError, Source, Tool, quoted};
 use axiscope::fruit::Request;
-use axiscope::method::{Aggregation, CenterMethod, Params, Preset, analyze};
+use axiscope::method::{Aggregation, CenterMethod, Params, Preset, RandomSearch, analyze};
 use axiscope::render::Viewport;
 use axiscope::view::{Coloring, Overlay, Theme, ViewPreset};
 use glam::{DVec2, DVec3};
@@ -554,11 +554,23 @@ fn a_session_that_makes_no_sense_is_kept_aside() {
     let error = Session::read(&path).expect_err("no JSON");
     assert!(matches!(error, SessionError::Unreadable { .. }));
     assert!(!path.exists() && folder.path().join("session.unreadable.json").exists());
-    // Of another version, or with numbers out of range: begun anew.
+    // Of another version, or with numbers out of range: begun anew, and kept for whoever can read it.
     std::fs::write(&path, "{\"version\": 99}").expect("written");
     assert_eq!(Session::read(&path).expect("readable"), Session::first());
+    let kept = std::fs::read_to_string(folder.path().join("session.version-99.json"));
+    assert_eq!(kept.expect("moved aside"), "{\"version\": 99}");
+    assert!(!path.exists());
     let mut wild = Session::first();
     wild.settings.request.params.u = 100_000;
+    wild.write(&path).expect("written");
+    assert_eq!(Session::read(&path).expect("readable"), Session::first());
+    // So many random points that no memory holds them would end a worker.
+    let mut wild = Session::first();
+    let search = RandomSearch {
+        count: usize::MAX,
+        ..RandomSearch::default()
+    };
+    wild.settings.request.params.center = CenterMethod::Equidistant(search);
     wild.write(&path).expect("written");
     assert_eq!(Session::read(&path).expect("readable"), Session::first());
 }

@@ -5,6 +5,7 @@ mod helpers;
 
 mod annotating;
 mod annotating_format;
+mod calling_off;
 mod geometry;
 mod method_choices;
 mod method_error_parts;

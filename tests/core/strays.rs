@@ -2,9 +2,11 @@
 
 use std::sync::LazyLock;
 
+use axiscope::estimate::Surface;
 use axiscope::fruit::{parse_cloud, unit_guess};
 use axiscope::geometry::{Cloud, Extent, Unit, strays};
 use axiscope::method::{Analysis, Params, Preset, Warning, analyze, axis_error_rad};
+use axiscope::peduncle::Peduncle;
 use axiscope::simulate::{DepthCamera, PepperSettings};
 use axiscope::view::{Coloring, ShownPoints, Subject, color_points};
 use glam::DVec3;
@@ -97,6 +99,8 @@ proptest! {
         let unit = |cloud: &Cloud| unit_guess::resolve(cloud, None).0;
         prop_assert_eq!(unit(&cloud), unit(clean));
         prop_assert_eq!(Extent::robust(cloud.positions()), Extent::robust(clean.positions()));
+        let surface = |cloud: &Cloud| Surface::new(cloud.positions(), Unit::Centimeter, DVec3::ZERO, &()).ok();
+        prop_assert!(surface(&cloud).is_some() && surface(&cloud) == surface(clean), "other estimators");
         let shown = ShownPoints::new(&cloud, &found);
         prop_assert_eq!(&shown.strays, &*found.strays);
         prop_assert!(shown.local_positions.iter().all(|p| p.is_finite()));
@@ -154,6 +158,18 @@ fn simulated_and_stored_clouds_have_none() {
             .cloud;
         assert_eq!(strays(cloud.positions()), Vec::<usize>::new(), "{file}");
     }
+}
+
+#[test]
+fn strays_are_no_part_of_the_peduncle_whatever_their_label() {
+    let clean = &PEPPERS[0].0;
+    let expected = Peduncle::by_label(clean).expect("a peduncle");
+    let mut points = clean.positions().to_vec();
+    let mut labels = clean.labels().expect("labels").to_vec();
+    points.extend([DVec3::splat(400.0), DVec3::splat(-1e9)]);
+    labels.extend([Cloud::PEDUNCLE; 2]);
+    let cloud = Cloud::new(points).with_labels(labels).expect("one each");
+    assert_eq!(Peduncle::by_label(&cloud), Ok(expected));
 }
 
 #[test]
