@@ -14,6 +14,8 @@ const LABEL_WIDTH: f32 = 104.0;
 const NUMBER_WIDTH: f32 = 64.0;
 /// The height of the chart, in logical pixels.
 const CHART_HEIGHT: f32 = 132.0;
+/// The text in the chart before a slider was moved.
+const NO_SLIDER: &str = "Drag a slider: the error over its values appears here.";
 const LINE: Color32 = Color32::from_rgb(0x2b, 0x8c, 0xd6);
 const NOW: Color32 = Color32::from_rgb(0xe6, 0x9f, 0x00);
 
@@ -134,7 +136,7 @@ fn chart(ui: &mut Ui, state: &State, settings: &PepperSettings) {
     });
     let response = answer.response;
     if !has_slider {
-        let hint = "Drag a slider: the error over its values appears here.";
+        let hint = NO_SLIDER;
         let font = small(ui);
         let galley = ui.painter().layout(
             hint.to_owned(),
@@ -146,7 +148,10 @@ fn chart(ui: &mut Ui, state: &State, settings: &PepperSettings) {
         ui.painter().galley(place, galley, ui.visuals().text_color());
     }
     response.widget_info(|| {
-        let label = format!("Chart: error over {name}, {} values", known.len());
+        let label = match has_slider {
+            true => format!("Chart: error over {name}, {} values", known.len()),
+            false => NO_SLIDER.to_owned(),
+        };
         WidgetInfo::labeled(egui::Role::Image, true, label)
     });
 }
