@@ -5,6 +5,7 @@ mod ellipsoid;
 mod pepper;
 mod scans;
 mod seeds;
+mod seen_points;
 mod truth;
 
 use axiscope::simulate::{DepthCamera, PepperSettings, Settings, SimulateError, Simulated, Truth};
