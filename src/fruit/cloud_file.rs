@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 use crate::parallel::{Cancelled, PartOf, Watch};
 use crate::ply::{self, PlyCloud, PlyError, Problem};
 use crate::simulate::SimulateError;
+use crate::text::one_line;
 
 /// A cloud and its file.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +24,7 @@ pub struct CloudFile {
 
 /// A file that gives no cloud. Displayed as one line: the file, then the cause.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {kind}", on_one_line(.path))]
+#[error("{}: {kind}", one_line(&.path.display().to_string()))]
 pub struct ReadError {
     /// The file's path, as it was given.
     pub path: PathBuf,
@@ -209,16 +210,4 @@ fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
 /// SHA-256 of some bytes, in 64 lowercase hexadecimal digits.
 pub fn sha256_hex(bytes: &[u8]) -> String {
     hex::encode(Sha256::digest(bytes))
-}
-
-/// A path for a message of one line: names of files may hold line ends.
-fn on_one_line(path: &Path) -> String {
-    let escape = |c: char| {
-        if c.is_control() {
-            c.escape_default().collect()
-        } else {
-            String::from(c)
-        }
-    };
-    path.display().to_string().chars().map(escape).collect()
 }

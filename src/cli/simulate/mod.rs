@@ -219,5 +219,5 @@ fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::R
 /// Whether a path names a regular file, there or yet to be written, so that another can stand beside it: not standard
 /// output, a device or a pipe.
 fn has_name(path: &Path) -> bool {
-    !is_standard_output(path) && !path.starts_with("/dev") && !path.exists() || path.is_file()
+    !is_standard_output(path) && files::is_replaceable(path)
 }
