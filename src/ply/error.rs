@@ -165,7 +165,9 @@ pub enum Problem {
         at_least: bool,
     },
     /// A mesh is asked for, and there are no faces.
-    #[error("it has no faces (an element \"face\" with a list \"vertex_indices\"); a cloud of points cannot be scanned")]
+    #[error(
+        "it has no faces (an element \"face\" with a list \"vertex_indices\"); a cloud of points cannot be scanned"
+    )]
     NoFaces,
     /// A face has a corner that is no vertex.
     #[error("a face has the corner {index}, and the vertices are 0 to {}", .vertices - 1)]

@@ -5,9 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{each_within, within};
 use super::scan::Scene;
-use super::{
-    DepthCamera, Pose, ScanSettings, Settings, SimulateError, Simulated, TriangleMesh, TrueAxis, Truth,
-};
+use super::truth::cloud_in_unit;
+use super::{DepthCamera, Pose, ScanSettings, Settings, SimulateError, TriangleMesh, TrueAxis, Truth};
 use crate::geometry::{Cloud, Unit};
 
 /// The views of a mesh: where it stands and from where it is looked at.
@@ -71,12 +70,10 @@ pub struct ScannedMesh {
 }
 
 impl ScannedMesh {
-    /// The cloud and its truth, where there is one.
-    pub fn simulated(&self) -> Option<Simulated> {
-        Some(Simulated {
-            cloud: self.cloud.clone(),
-            truth: self.truth.clone()?,
-        })
+    /// Returns the cloud in a unit, with its truth if there is one.
+    pub fn in_unit(&self, unit: Unit) -> (Cloud, Option<Truth>) {
+        let cloud = cloud_in_unit(&self.cloud, Unit::Centimeter, unit);
+        (cloud, self.truth.clone().map(|truth| truth.in_unit(unit)))
     }
 }
 
@@ -107,7 +104,9 @@ impl MeshScanSettings {
         let scanned = scene.scan(&self.camera, &self.scan, target_in_camera, self.seed)?;
         let pose = Pose::new(camera_from_mesh, translation);
         Ok(ScannedMesh {
-            cloud: scanned.cloud.without_columns(mesh.has_colors(), mesh.has_labels()),
+            cloud: scanned
+                .cloud
+                .without_columns(mesh.has_colors(), mesh.has_labels()),
             coverage: scanned.coverage.ok_or(SimulateError::NothingVisible)?,
             pose,
             truth: self.truth(pose, scanned.coverage),
@@ -118,7 +117,12 @@ impl MeshScanSettings {
         const FAR: (f64, f64) = (-1e6, 1e6);
         self.camera.check()?;
         self.scan.check()?;
-        let points = [self.from, self.towards, self.axis.map(|a| a[0]), self.axis.map(|a| a[1])];
+        let points = [
+            self.from,
+            self.towards,
+            self.axis.map(|a| a[0]),
+            self.axis.map(|a| a[1]),
+        ];
         for (name, point) in ["from", "towards", "axis", "axis"].into_iter().zip(points) {
             point.map_or(Ok(()), |p| each_within(name, p, FAR, "-1000000 to 1000000"))?;
         }
@@ -150,8 +154,7 @@ impl MeshScanSettings {
     }
 
     fn truth(&self, pose: Pose, coverage: Option<f64>) -> Option<Truth> {
-        let to_camera =
-            |p: DVec3| pose.camera_from_fruit() * (p * self.mesh_unit.in_cm()) + pose.translation;
+        let to_camera = |p: DVec3| pose.camera_from_fruit() * (p * self.mesh_unit.in_cm()) + pose.translation;
         let [stem_end, blossom_end] = self.axis?.map(to_camera);
         let center = stem_end.midpoint(blossom_end);
         Some(Truth {

@@ -13,7 +13,10 @@ pub enum MeshError {
     #[error("it has no triangles")]
     NoTriangles,
     /// There are more than [`TriangleMesh::MOST_TRIANGLES`].
-    #[error("it has {triangles} triangles, and at most {} are scanned", TriangleMesh::MOST_TRIANGLES)]
+    #[error(
+        "it has {triangles} triangles, and at most {} are scanned",
+        TriangleMesh::MOST_TRIANGLES
+    )]
     TooManyTriangles {
         /// The number of triangles.
         triangles: usize,

@@ -67,7 +67,11 @@ fn views_from_several_places_are_fused_and_repeat() {
     let truth: Value = serde_json::from_str(&truth).unwrap();
     assert_eq!(truth["settings"]["scan"]["views"], 5);
     assert_eq!(truth["settings"]["scan"]["pose_noise_deg"], 0.3);
-    assert!(truth["coverage"].as_f64().unwrap() > 0.45, "{}", truth["coverage"]);
+    assert!(
+        truth["coverage"].as_f64().unwrap() > 0.45,
+        "{}",
+        truth["coverage"]
+    );
     let cloud = axiscope::fruit::read_cloud(&first).unwrap().ply.cloud;
     assert!(cloud.normals().is_some());
 
@@ -85,7 +89,10 @@ fn views_from_several_places_are_fused_and_repeat() {
     assert_eq!(ran.status, 1);
     assert!(ran.err.contains("poses.txt: line 2 is not a pose"), "{}", ran.err);
     assert_eq!(run(["simulate", "pepper", "--views", "0"]).status, 2);
-    assert_eq!(run(["simulate", "pepper", "--views", "3", "--poses", "x"]).status, 2);
+    assert_eq!(
+        run(["simulate", "pepper", "--views", "3", "--poses", "x"]).status,
+        2
+    );
 }
 
 #[test]
