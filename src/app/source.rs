@@ -69,8 +69,10 @@ impl Source {
     fn files(&self, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
         if let Self::Simulated(pepper) = self {
             let simulated = pepper.settings().simulate().map_err(|error| error.to_string())?;
-            let both = simulated_files(path, &simulated, Unit::Centimeter, Encoding::default());
-            return Ok(both.map_err(|error| error.to_string())?.into());
+            let (cloud, truth) = (&simulated.cloud, &simulated.truth);
+            let encoding = Encoding::default();
+            let files = simulated_files(path, cloud, Some(truth), truth.seed, Unit::Centimeter, encoding);
+            return files.map_err(|error| error.to_string());
         }
         let content = self.read(&()).map_err(|error| error.to_string())?;
         let cloud = &content.file.ply.cloud;

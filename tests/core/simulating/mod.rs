@@ -2,6 +2,7 @@
 
 mod camera;
 mod ellipsoid;
+mod meshes;
 mod pepper;
 mod scans;
 mod seeds;
