@@ -7,6 +7,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::peduncle::state::PeduncleState;
+use super::simulator::SimulatorState;
 use super::tool::Tool;
 use crate::app::inspector::look::Look;
 use crate::app::inspector::stages::{AnalyzedFruit, Source};
@@ -88,6 +89,8 @@ pub struct State {
     pub walked: Option<Arc<AnalyzedFruit>>,
     /// A cloud that was read but not analyzed, and why: `None` where it only is not yet.
     pub unanalyzed: Option<(Arc<ShownPoints>, Option<String>)>,
+    /// Whether it was not analyzed because the viewpoint lies among its points, as that of a whole scan does.
+    pub is_viewpoint_inside: bool,
     /// The axes to compare with.
     pub references: Vec<AxisEstimate>,
     /// The one that the error is measured against.
@@ -118,6 +121,8 @@ pub struct State {
     pub pixels_per_point: f32,
     /// The tool of the left mouse button.
     pub tool: Tool,
+    /// The simulated pepper.
+    pub simulator: SimulatorState,
     /// Picking the peduncle.
     pub peduncle: PeduncleState,
     /// The picked point, by its index among the shown ones.
@@ -149,6 +154,7 @@ impl State {
             can_redo: false,
             walked: None,
             unanalyzed: None,
+            is_viewpoint_inside: false,
             references: Vec::new(),
             truth: TruthChoice::Peduncle,
             warnings: Vec::new(),
@@ -164,6 +170,7 @@ impl State {
             viewport: Viewport::new(800.0, 600.0),
             pixels_per_point: 1.0,
             tool: Tool::Navigate,
+            simulator: SimulatorState::default(),
             peduncle: PeduncleState::default(),
             picked: None,
             pointed_at: None,

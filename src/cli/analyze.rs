@@ -18,6 +18,7 @@ use clap::{Args, ValueEnum};
 use glam::DVec3;
 
 use super::options::AnalysisOptions;
+use super::output::Printable;
 use super::progress::StageClock;
 
 #[derive(Debug, Args)]
@@ -63,9 +64,8 @@ pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
         plane_terms: times.milliseconds(Stage::PlaneTerms),
         total: milliseconds_since(started),
     };
-    let mut out = std::io::stdout().lock();
     match args.format {
-        Format::Text => write_text(&mut out, args, &examined, &timings)?,
+        Format::Text => write_text(&mut Printable::stdout(), args, &examined, &timings)?,
         Format::Json => {
             let report = AnalysisReport::new(
                 &args.cloud,
@@ -77,7 +77,7 @@ pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
             );
             // The text is complete before its first byte goes out, so that a reader gets all of it or nothing.
             let text = serde_json::to_string_pretty(&report)?;
-            writeln!(out, "{text}")?;
+            writeln!(std::io::stdout(), "{text}")?;
         }
     }
     Ok(())

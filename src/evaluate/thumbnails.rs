@@ -5,6 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::row_store::{THUMBNAILS, params_key, stable_hash};
 use super::{Examination, RowStore, TruthChoice, examine_file};
+use crate::files::write_whole;
 use crate::fruit::{Request, annotation_paths, files_behind};
 use crate::method::Observe;
 use crate::render::Image;
@@ -65,11 +66,8 @@ impl ThumbnailFile {
         let write = || {
             let folder = self.path.parent()?;
             std::fs::create_dir_all(folder).ok()?;
-            // Under another name first: half a picture never has the final one.
-            let mut file = tempfile::NamedTempFile::new_in(folder).ok()?;
             let png = encode_picture(image, &settings).ok()?;
-            std::io::Write::write_all(&mut file, &png).ok()?;
-            file.persist(&self.path).ok()
+            write_whole(&self.path, &png).ok()
         };
         let _ = write();
     }

@@ -5,6 +5,7 @@ mod helpers;
 
 mod annotating;
 mod annotating_format;
+mod calling_off;
 mod geometry;
 mod method_choices;
 mod method_error_parts;
@@ -21,4 +22,5 @@ mod reading_units;
 mod reading_watched;
 mod sampling;
 mod simulating;
+mod strays;
 mod view;

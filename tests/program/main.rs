@@ -11,4 +11,7 @@ mod evaluating;
 mod evaluating_parts;
 mod evaluating_peduncle;
 mod exchanging;
+mod extreme_numbers;
 mod figures;
+mod hostile_input;
+mod writing;

@@ -75,7 +75,7 @@ impl Many {
             .map(|(place, entry)| {
                 let path = match &entry.source {
                     Source::File(path) => Some(path.clone()),
-                    Source::Bundled(_) => None,
+                    Source::Bundled(_) | Source::Simulated(_) => None,
                 };
                 let name = entry.source.name();
                 match known.remove(&(name.clone(), path.clone())) {

@@ -10,6 +10,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
 use crate::evaluate::Row;
+use crate::text::spreadsheet_field;
 
 /// The reason why a table could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -139,7 +140,7 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
     )?;
     for row in rows {
         let field = |(_, value): &Column| match value(row) {
-            Value::Text(text) => text.unwrap_or_default(),
+            Value::Text(text) => spreadsheet_field(&text.unwrap_or_default()).into_owned(),
             Value::Count(count) => count.map(|c| c.to_string()).unwrap_or_default(),
             Value::Number(number) => number.map(|n| n.to_string()).unwrap_or_default(),
         };
