@@ -17,7 +17,7 @@ use crate::app::true_axes::state::{KeptTrueAxes, TrueAxesState};
 use crate::app::workers::Progress;
 use crate::evaluate::{ErrorBreakdown, reference_of};
 use crate::fruit::Request;
-use crate::method::{Analysis, AxisEstimate, Params, PlaneDetail, PointDetail};
+use crate::method::{Analysis, AxisEstimate, CandidateAxes, Params, PlaneDetail, PointDetail};
 use crate::render::{Camera, Viewport};
 use crate::view::{ShownPoints, Style, Theme};
 
@@ -243,8 +243,9 @@ impl State {
     /// The parts of the axis's error against the chosen reference. Takes O(u²).
     pub fn error_breakdown(&self) -> Option<ErrorBreakdown> {
         let (walked, reference) = (self.walked.as_ref()?, self.reference()?);
-        let given = walked.at_true_center.as_deref();
-        ErrorBreakdown::new(&walked.fruit, &walked.analysis, given, reference)
+        let given = walked.at_true_center.as_deref().map(CandidateAxes::new);
+        let computed = CandidateAxes::new(&walked.analysis);
+        ErrorBreakdown::new(&walked.fruit, &computed, given.as_ref(), reference)
     }
 
     /// The detail of the plane that is drawn.

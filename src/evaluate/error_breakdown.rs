@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::fruit::Fruit;
-use crate::method::{Analysis, AxisEstimate, AxisSource, ErrorParts, lean_rad};
+use crate::method::{AxisEstimate, AxisSource, CandidateAxes, ErrorParts, lean_rad};
 
 /// The error against one reference axis, taken apart as [`ErrorParts`] explains: lean, grid and choice add up to it.
 /// Angles are in degrees, 0 to 90.
@@ -60,23 +60,25 @@ pub struct GivenCenter {
 }
 
 impl ErrorBreakdown {
-    /// Takes the error of an analysis against a reference axis apart, and compares it with that of the analysis which
-    /// was given the true center. `None` if Eq. 16 gives no axis at all, since the viewpoint is the center.
+    /// Takes the error of an analysis against a reference axis apart, and compares it with that of the analysis
+    /// `at_true_center`, which was given the true center. `None` if Eq. 16 gives no axis at all, since the viewpoint is the center.
     ///
     /// The peduncle's reference of § 3.2 starts from the center in use, so with the true center it is another line.
     pub fn new(
         fruit: &Fruit,
-        analysis: &Analysis,
-        at_true_center: Option<&Analysis>,
+        computed: &CandidateAxes<'_>,
+        at_true_center: Option<&CandidateAxes<'_>>,
         reference: &AxisEstimate,
     ) -> Option<Self> {
-        let parts = ErrorParts::new(analysis, reference.direction).ok()?;
-        let given = at_true_center.and_then(|given| {
+        let analysis = computed.analysis();
+        let parts = ErrorParts::new(computed, reference.direction).ok()?;
+        let given = at_true_center.and_then(|axes| {
+            let given = axes.analysis();
             let reference = match reference.source {
                 AxisSource::Peduncle => &fruit.peduncle.as_ref()?.reference_axis(given.center).ok()?,
                 _ => reference,
             };
-            let parts = ErrorParts::new(given, reference.direction).ok()?;
+            let parts = ErrorParts::new(axes, reference.direction).ok()?;
             let distance = analysis.center.distance(given.center);
             Some(GivenCenter {
                 center: given.center.to_array(),

@@ -5,7 +5,9 @@ use std::path::Path;
 use super::ErrorBreakdown;
 use crate::annotate::{Role, estimates};
 use crate::fruit::{Fruit, FruitError, ReadErrorKind, Request};
-use crate::method::{Analysis, AnalysisError, AxisEstimate, AxisSource, Observe, Stages, axis_error_rad};
+use crate::method::{
+    Analysis, AnalysisError, AxisEstimate, AxisSource, CandidateAxes, Observe, Stages, axis_error_rad,
+};
 use crate::parallel::Cancelled;
 use crate::text::sentence;
 use serde::{Deserialize, Serialize};
@@ -78,12 +80,9 @@ impl Examination {
 
     /// Takes the error against a reference axis apart; `None` if the viewpoint is the center.
     pub fn error_breakdown(&self, reference: &AxisEstimate) -> Option<ErrorBreakdown> {
-        ErrorBreakdown::new(
-            &self.fruit,
-            &self.analysis,
-            self.at_true_center.as_ref(),
-            reference,
-        )
+        let given = self.at_true_center.as_ref().map(CandidateAxes::new);
+        let computed = CandidateAxes::new(&self.analysis);
+        ErrorBreakdown::new(&self.fruit, &computed, given.as_ref(), reference)
     }
 }
 

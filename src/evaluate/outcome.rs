@@ -8,7 +8,7 @@ use super::{
     ErrorBreakdown, Examination, Row, TruthChoice, examine_file, peduncle_disagreement_deg, reference_of,
 };
 use crate::fruit::{Fruit, Request};
-use crate::method::{Analysis, AxisEstimate, Observe, axis_error_rad};
+use crate::method::{Analysis, AxisEstimate, CandidateAxes, Observe, axis_error_rad};
 use crate::parallel::Cancelled;
 
 /// A reference axis of a cloud, and the error against it.
@@ -73,12 +73,16 @@ impl Outcome {
     ) -> Self {
         let used = analysis.surface.len();
         let axis = analysis.axis.as_ref();
+        let (computed, given) = (
+            CandidateAxes::new(analysis),
+            at_true_center.map(CandidateAxes::new),
+        );
         let known = |choice| {
             reference_of(references, choice).map(|reference| KnownAxis {
                 name: reference.source.name().into_owned(),
                 direction: reference.direction.to_array(),
                 error_deg: axis.map(|axis| axis_error_rad(axis, reference).to_degrees()),
-                error_parts: ErrorBreakdown::new(fruit, analysis, at_true_center, reference),
+                error_parts: ErrorBreakdown::new(fruit, &computed, given.as_ref(), reference),
             })
         };
         let (peduncle, truth) = (known(TruthChoice::Peduncle), known(TruthChoice::Truth));

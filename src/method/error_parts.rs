@@ -51,22 +51,36 @@ pub struct ErrorParts {
     pub error_rad: Option<f64>,
 }
 
-impl ErrorParts {
-    /// Takes the error of an analysis against the true axis apart; `truth` is its direction, of unit length.
-    /// Takes O(u²), whatever the number of points.
-    ///
-    /// # Errors
-    /// Returns an error if Eq. 16 gives no candidate an axis, since the viewpoint is the center.
-    pub fn new(analysis: &Analysis, truth: DVec3) -> Result<Self, AxisError> {
-        let lean_rad = lean_rad(truth, analysis.center, analysis.params.viewpoint)?;
+/// The axes that Eq. 16 gives for all candidate planes of an analysis, for the comparison with several true axes.
+#[derive(Debug, Clone)]
+pub struct CandidateAxes<'a> {
+    analysis: &'a Analysis,
+    /// The unit directions, in the grid's order; `None` for a normal along the view ray.
+    directions: Vec<Option<DVec3>>,
+}
+
+impl<'a> CandidateAxes<'a> {
+    /// Computes the axes. Takes O(u²), whatever the number of points.
+    pub fn new(analysis: &'a Analysis) -> Self {
+        let direction = |index| analysis.axis_of(index).ok().map(|axis| axis.direction);
+        Self {
+            analysis,
+            directions: (0..analysis.planes.grid.plane_count()).map(direction).collect(),
+        }
+    }
+
+    /// Returns the analysis.
+    pub fn analysis(&self) -> &'a Analysis {
+        self.analysis
+    }
+
+    /// Returns the candidate nearest to the direction `truth`; `None` if no candidate has an axis.
+    fn nearest(&self, truth: DVec3) -> Option<NearestCandidate> {
         let mut nearest: Vec<(usize, f64)> = Vec::new();
         let mut least = f64::INFINITY;
-        for index in 0..analysis.planes.grid.plane_count() {
-            // Without an axis: its normal lies along the view ray.
-            let Ok(axis) = analysis.axis_of(index) else {
-                continue;
-            };
-            let error = angle_between_lines_rad(axis.direction, truth);
+        for (index, direction) in self.directions.iter().enumerate() {
+            let Some(direction) = direction else { continue };
+            let error = angle_between_lines_rad(*direction, truth);
             if error < least {
                 least = error;
                 nearest.retain(|&(_, error)| error <= least + EQUAL_RAD);
@@ -75,22 +89,32 @@ impl ErrorParts {
                 nearest.push((index, error));
             }
         }
-        let order = analysis.ranking.order();
+        let order = self.analysis.ranking.order();
         let ranked = order.iter().enumerate().find_map(|(place, index)| {
-            let &(index, error) = nearest.iter().find(|(i, _)| i == index)?;
-            Some((index, error, Some(place + 1)))
+            let found = nearest.iter().find(|(i, _)| i == index)?;
+            Some((*found, Some(place + 1)))
         });
-        let first = nearest.first().map(|&(index, error)| (index, error, None));
-        let (index, error_rad, rank) = ranked.or(first).ok_or(AxisError::NormalAlongViewRay)?;
+        let ((index, error_rad), rank) = ranked.or_else(|| Some((*nearest.first()?, None)))?;
+        Some(NearestCandidate {
+            index,
+            candidate: self.analysis.planes.grid.candidate(index),
+            error_rad,
+            rank,
+        })
+    }
+}
+
+impl ErrorParts {
+    /// Takes the error of an analysis against the true axis apart; `truth` is its direction, of unit length.
+    ///
+    /// # Errors
+    /// Returns an error if Eq. 16 gives no candidate an axis, since the viewpoint is the center.
+    pub fn new(candidates: &CandidateAxes<'_>, truth: DVec3) -> Result<Self, AxisError> {
+        let analysis = candidates.analysis;
         let axis = analysis.axis.as_ref();
         Ok(Self {
-            lean_rad,
-            nearest: NearestCandidate {
-                index,
-                candidate: analysis.planes.grid.candidate(index),
-                error_rad,
-                rank,
-            },
+            lean_rad: lean_rad(truth, analysis.center, analysis.params.viewpoint)?,
+            nearest: candidates.nearest(truth).ok_or(AxisError::NormalAlongViewRay)?,
             error_rad: axis.map(|axis| angle_between_lines_rad(axis.direction, truth)),
         })
     }

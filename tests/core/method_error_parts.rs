@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use axiscope::geometry::{Cloud, Unit, angle_between_lines_rad};
 use axiscope::method::{
-    Analysis, AxisError, CenterMethod, ErrorParts, NormalSource, Params, Preset, analyze, lean_rad,
-    symmetry_axis,
+    Analysis, AxisError, CandidateAxes, CenterMethod, ErrorParts, NormalSource, Params, Preset, analyze,
+    lean_rad, symmetry_axis,
 };
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
@@ -44,7 +44,7 @@ proptest! {
         let analysis = analysis(seed, 120, DQuat::IDENTITY, |params| {
             (params.u, params.min_partner_fraction) = (u, fraction);
         });
-        let parts = ErrorParts::new(&analysis, truth).unwrap();
+        let parts = ErrorParts::new(&CandidateAxes::new(&analysis), truth).unwrap();
         let error = angle_between_lines_rad(analysis.axis.as_ref().unwrap().direction, truth);
         let choice = parts.choice_rad().unwrap();
         prop_assert_eq!(parts.error_rad, Some(error));
@@ -98,8 +98,8 @@ proptest! {
         let turn = DQuat::from_axis_angle(about, PI);
         let before = analysis(seed, 120, DQuat::IDENTITY, |_| {});
         let after = analysis(seed, 120, turn, |_| {});
-        let before = ErrorParts::new(&before, truth).unwrap();
-        let after = ErrorParts::new(&after, turn * truth).unwrap();
+        let before = ErrorParts::new(&CandidateAxes::new(&before), truth).unwrap();
+        let after = ErrorParts::new(&CandidateAxes::new(&after), turn * truth).unwrap();
         prop_assert!((before.lean_rad - after.lean_rad).abs() < 1e-9);
         prop_assert!((before.grid_rad() - after.grid_rad()).abs() < 1e-8);
         prop_assert!((before.choice_rad().unwrap() - after.choice_rad().unwrap()).abs() < 1e-8);
@@ -113,7 +113,9 @@ fn the_grid_s_part_vanishes_as_the_grid_becomes_fine() {
         let truth = rotation(seed) * DVec3::Y;
         for u in [5, 12, 60] {
             let analysis = analysis(seed, 60, DQuat::IDENTITY, |params| params.u = u);
-            let grid = ErrorParts::new(&analysis, truth).unwrap().grid_rad();
+            let grid = ErrorParts::new(&CandidateAxes::new(&analysis), truth)
+                .unwrap()
+                .grid_rad();
             assert!(grid <= 0.6 * PI / u as f64, "u = {u}: {}°", grid.to_degrees());
         }
     }
@@ -123,12 +125,12 @@ fn the_grid_s_part_vanishes_as_the_grid_becomes_fine() {
 fn without_a_symmetry_plane_the_chosen_plane_s_part_alone_is_missing() {
     let truth = DVec3::new(0.3, 0.9, 0.2).normalize();
     let all = analysis(3, 120, DQuat::IDENTITY, |_| {});
-    let all = ErrorParts::new(&all, truth).unwrap();
+    let all = ErrorParts::new(&CandidateAxes::new(&all), truth).unwrap();
     let none = analysis(3, 120, DQuat::IDENTITY, |params| {
         params.min_partner_fraction = 1.0
     });
     assert_eq!(none.axis, None, "no plane has a partner for every point");
-    let none = ErrorParts::new(&none, truth).unwrap();
+    let none = ErrorParts::new(&CandidateAxes::new(&none), truth).unwrap();
     assert_eq!(
         (none.error_rad, none.choice_rad(), none.nearest.rank),
         (None, None, None)
@@ -158,7 +160,9 @@ fn candidates_with_one_axis_count_as_the_best_ranked_of_them() {
     for h in 1..=6 {
         let index = analysis.planes.grid.index_of(3, h).unwrap();
         let truth = analysis.axis_of(index).unwrap().direction;
-        let nearest = ErrorParts::new(&analysis, truth).unwrap().nearest;
+        let nearest = ErrorParts::new(&CandidateAxes::new(&analysis), truth)
+            .unwrap()
+            .nearest;
         let of_row = |&&i: &&usize| analysis.planes.grid.candidate(i).h == h;
         let first = analysis.ranking.order().iter().find(of_row);
         assert_eq!(Some(&nearest.index), first);

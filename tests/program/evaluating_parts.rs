@@ -81,7 +81,8 @@ fn evaluate_agrees_with_analyze_on_every_part_and_the_parts_with_the_error() {
             assert!(is_near(parts_of(parts).iter().sum(), error), "{parts}");
         }
         assert_eq!(row["truth"], parts["truth"].as_str().unwrap());
-        assert_eq!(row["coverage"], "", "no truth tells it");
+        let truth = read_json(&set.join(&row["file"]).with_extension("truth.json"));
+        assert_eq!(row["coverage"].parse::<f64>().ok(), truth["coverage"].as_f64());
     }
     let mean = |column: &str| {
         rows.iter()
@@ -105,7 +106,7 @@ fn evaluate_agrees_with_analyze_on_every_part_and_the_parts_with_the_error() {
     }
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("Where the error comes from") && page.contains("With the true center given"));
-    assert!(out.join("error_by_lean.svg").is_file() && !out.join("error_by_coverage.svg").exists());
+    assert!(out.join("error_by_lean.svg").is_file() && out.join("error_by_coverage.svg").is_file());
 }
 
 #[test]
@@ -193,16 +194,24 @@ fn without_a_truth_there_are_no_parts_and_without_the_simulator_s_no_true_center
 #[test]
 fn coverage_comes_from_the_truth() {
     let folder = TempDir::new().unwrap();
-    let (set, out) = (peppers(&folder), folder.path().join("out"));
-    for (cloud, coverage) in [("pepper_000", 0.25), ("pepper_002", 0.75)] {
-        let path = set.join(cloud).with_extension("truth.json");
-        let mut truth = read_json(&path);
-        truth["coverage"] = json!(coverage);
-        std::fs::write(&path, truth.to_string()).unwrap();
-    }
-    let rows = evaluate(&set, &out, "");
-    let coverages: Vec<&str> = rows.iter().map(|row| row["coverage"].as_str()).collect();
-    assert_eq!(coverages, ["0.25", "", "0.75"]);
-    assert_eq!(read_json(&out.join("summary.json"))["mean_coverage"], 0.5);
-    assert!(out.join("error_by_coverage.svg").is_file() && out.join("error_by_coverage.png").is_file());
+    let set = peppers(&folder);
+    let coverages = |out: &str, told: [Option<f64>; 3]| {
+        for (i, coverage) in told.into_iter().enumerate() {
+            let path = set.join(format!("pepper_00{i}.truth.json"));
+            let mut truth = read_json(&path);
+            truth["coverage"] = json!(coverage);
+            std::fs::write(&path, truth.to_string()).unwrap();
+        }
+        let rows = evaluate(&set, &folder.path().join(out), "");
+        rows.iter()
+            .map(|row| row["coverage"].parse().ok())
+            .collect::<Vec<Option<f64>>>()
+    };
+    let is_drawn = |out: &str| folder.path().join(out).join("error_by_coverage.png").is_file();
+    let mean = |out: &str| read_json(&folder.path().join(out).join("summary.json"))["mean_coverage"].as_f64();
+    let told = [Some(0.25), None, Some(0.75)];
+    assert_eq!(coverages("some", told), told);
+    assert_eq!((mean("some"), is_drawn("some")), (Some(0.5), true));
+    assert_eq!(coverages("none", [None; 3]), [None; 3]);
+    assert_eq!((mean("none"), is_drawn("none")), (None, false));
 }

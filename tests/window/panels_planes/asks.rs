@@ -181,14 +181,16 @@ fn the_ranking_takes_the_error_apart_and_leads_to_the_nearest_candidate() {
     let app = app_with(Sample::MissedPepper);
     let parts = app.state().error_breakdown().expect("it has a truth");
     let mut harness = harness(app, ranking::show, vec2(640.0, 300.0), Theme::Dark, 1.0);
-    let error = parts.error_deg.expect("an axis");
-    harness.get_by_label(&format!("Axis error {error:.1}° ="));
-    let choice = parts.choice_part_deg.expect("an axis");
-    harness.get_by_label(&format!("{choice:.1}° choice"));
+    let [error, choice] = [parts.error_deg, parts.choice_part_deg].map(|part| part.expect("an axis"));
+    let (lean, grid) = (parts.lean_part_deg, parts.grid_part_deg);
+    let text = format!("Error {error:.1}° = {lean:.1}° lean + {grid:.1}° grid + {choice:.1}° choice");
+    harness.get_by_label(&text).hover();
+    // A tooltip waits.
+    harness.run_steps(20);
+    let given = parts.true_center.as_ref().expect("the truth tells it");
+    harness.get_by_label_contains(&format!("{:.1} cm from the computed one", given.distance_cm));
+    harness.get_by_label(&text).click();
     let nearest = &parts.nearest_candidate;
-    harness
-        .get_by_label(&format!("g {}, h {}", nearest.g, nearest.h))
-        .click();
     let wanted = at(nearest.g as usize, nearest.h as usize);
     assert_eq!(asked(&mut harness).last(), Some(&wanted));
 }
