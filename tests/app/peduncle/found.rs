@@ -54,8 +54,8 @@ fn a_folder_without_peduncles_tells_what_it_lacks_and_what_does_not_fit() {
         &mut app,
         PeduncleCommand::Choose(PeduncleChoice::Removed(removed.clone())),
     );
-    let fruit = fruit(&app).clone();
-    let found = fruit.peduncle.as_ref().expect("found");
+    let now = fruit(&app).clone();
+    let found = now.peduncle.as_ref().expect("found");
     assert_eq!(
         (found.source, found.points),
         (PeduncleSource::Removal, labeled().len())
@@ -63,17 +63,17 @@ fn a_folder_without_peduncles_tells_what_it_lacks_and_what_does_not_fit() {
     // Another fruit under the same name.
     std::fs::copy(asset("ellipsoid.ply"), removed.join("a.ply")).expect("copied");
     act(&mut app, Command::Reload);
-    let fruit = fruit(&app).clone();
-    assert!(fruit.peduncle.is_none());
-    let problem = fruit.peduncle_problem.as_ref().expect("told");
+    let now = fruit(&app).clone();
+    assert!(now.peduncle.is_none());
+    let problem = now.peduncle_problem.as_ref().expect("told");
     assert!(problem.contains("not the same cloud"), "{problem}");
     ask(
         &mut app,
         PeduncleCommand::Choose(PeduncleChoice::File("no/such.ply".into())),
     );
-    let fruit = fruit(&app).clone();
+    let now = fruit(&app).clone();
     assert!(
-        fruit
+        now
             .peduncle_problem
             .as_ref()
             .expect("told")
