@@ -1,6 +1,6 @@
 //! The errors of a simulated pepper over the slider that is being moved.
 
-use super::Slider;
+use super::sliders::Slider;
 use crate::method::Params;
 use crate::simulate::PepperSettings;
 

@@ -73,8 +73,7 @@ fn a_folder_without_peduncles_tells_what_it_lacks_and_what_does_not_fit() {
     );
     let now = fruit(&app).clone();
     assert!(
-        now
-            .peduncle_problem
+        now.peduncle_problem
             .as_ref()
             .expect("told")
             .contains("no/such.ply")
