@@ -12,6 +12,18 @@ pub fn sentence(text: &str) -> String {
     format!("{first}{}.", letters.as_str())
 }
 
+/// Returns a text as one line: control characters in it, line ends among them, as escapes.
+pub(crate) fn one_line(text: &str) -> String {
+    let escape = |c: char| {
+        if c.is_control() {
+            c.escape_default().collect()
+        } else {
+            String::from(c)
+        }
+    };
+    text.chars().map(escape).collect()
+}
+
 /// The characters at the beginning of a field that make a spreadsheet take it for a formula, and the apostrophe that
 /// makes it a text.
 const FORMULA: [char; 7] = ['=', '+', '-', '@', '\t', '\r', '\''];

@@ -94,6 +94,10 @@ pub enum Command {
     Use(Tool),
     /// Take the eye of the view as the viewpoint `p_v` of the method.
     LookFromHere,
+    /// Make a cloud of the points that a depth camera in the place of the eye would see.
+    ScanFromHere,
+    /// Write the current cloud, which lies in no file, to a PLY file; its truth beside it where there is one.
+    SaveCloud(PathBuf),
     /// Put the fruit center somewhere, in the file's unit and frame.
     MoveCenter(DVec3),
     /// Pick the peduncle.

@@ -21,6 +21,7 @@ pub mod peduncle;
 mod samples;
 mod session;
 mod simulator;
+mod source;
 mod state;
 mod tool;
 pub mod true_axes;
@@ -38,19 +39,19 @@ use context::{Context, Step};
 use inspector::Inspector;
 use many::{Many, ManyState};
 use peduncle::PeduncleTools;
-use simulator::Simulator;
 use true_axes::TrueAxes;
-use workers::{Pool, Repaint};
+use workers::{Pool, Queue, Repaint};
 
 pub use command::Command;
 pub use inspector::command_line::{command_line, quoted};
 pub use inspector::image::page;
 pub use inspector::navigate::{default_camera, dragged};
-pub use inspector::stages::{AnalyzedFruit, Source};
+pub use inspector::stages::AnalyzedFruit;
 pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};
 pub use simulator::{SimulatedPepper, SimulatorCommand, SimulatorState, Slider, SliderGroup, Trail};
+pub use source::{ScanFromHere, Source};
 pub use state::{Entry, Message, PlaneChoice, Settings, State, TruthChoice};
 pub use tool::Tool;
 pub use true_axes::{TrueAxesCommand, TrueAxesState};
@@ -62,7 +63,7 @@ pub struct App {
     peduncle: PeduncleTools,
     true_axes: TrueAxes,
     many: Many,
-    simulator: Simulator,
+    saves: Queue<(), Result<String, String>>,
 }
 
 impl App {
@@ -84,7 +85,7 @@ impl App {
             peduncle: PeduncleTools::new(pool),
             true_axes: TrueAxes::new(pool),
             many: Many::new(pool),
-            simulator: Simulator::new(pool),
+            saves: Queue::new(pool, ()),
         })
     }
 
@@ -118,7 +119,9 @@ impl App {
                 }
             }
             Command::Close => self.close(),
-            Command::Simulate(command) => self.simulate(command),
+            Command::Simulate(command) => self.simulate(&command),
+            Command::ScanFromHere => self.scan_from_here(),
+            Command::SaveCloud(path) => self.save_cloud(path),
 
             Command::EndGesture => cx.undo.end_gesture(),
             Command::Undo => self.travel(History::undo),
@@ -148,6 +151,9 @@ impl App {
         self.many.update(elapsed, &mut self.context);
         // The background waits while a frame may wait for the current cloud.
         self.many.set_yielding(true);
+        while let Some((_, result)) = self.saves.take_within(Duration::ZERO) {
+            self.context.say_result(result);
+        }
         self.update_simulated();
         let cx = &mut self.context;
         self.inspector.update(elapsed, cx);
@@ -171,7 +177,7 @@ impl App {
         self.inspector.is_busy()
             || self.peduncle.is_busy()
             || self.true_axes.is_busy()
-            || self.simulator.is_busy()
+            || self.saves.is_busy()
     }
 
     /// Waits until every edit of an axis is written.

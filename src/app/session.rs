@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::state::{Settings, State};
-use crate::app::inspector::stages::Source;
+use crate::app::source::Source;
 use crate::app::true_axes::state::KeptTrueAxes;
 use crate::files::{read_regular, write_whole};
 use crate::view::Style;
@@ -129,7 +129,7 @@ impl Session {
             .enumerate()
             .filter_map(|(i, entry)| match &entry.source {
                 Source::File(path) => Some((i, std::path::absolute(path).unwrap_or_else(|_| path.clone()))),
-                Source::Bundled(_) | Source::Simulated(_) => None,
+                _ => None,
             })
             .collect();
         Self {

@@ -1,7 +1,6 @@
 //! `axiscope annotations`: a folder's axes set by hand, and the agreement between the annotators.
 
 use std::collections::HashMap;
-use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,6 +13,8 @@ use axiscope::files::read_at_most;
 use axiscope::fruit::{AxisFiles, Fruit, PeduncleChoice, Request, read_annotations, read_cloud};
 use axiscope::geometry::Unit;
 use clap::{Args, ValueEnum};
+use comfy_table::Table;
+use comfy_table::presets::NOTHING;
 use serde::Serialize;
 
 use super::annotate::open;
@@ -281,15 +282,13 @@ fn write_table_text<const N: usize>(out: &mut impl Write, rows: &[[String; N]]) 
     if rows.len() < 2 {
         return Ok(());
     }
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
-    let widths: Vec<usize> = (0..N).map(|column| width(column).unwrap_or(0)).collect();
+    let mut table = Table::new();
+    table.load_style(NOTHING).add_rows(rows);
+    for column in table.column_iter_mut() {
+        column.set_padding((0, 2));
+    }
     writeln!(out)?;
-    for row in rows {
-        let mut line = String::new();
-        for (cell, width) in row.iter().zip(&widths) {
-            // Writing to a string cannot fail.
-            let _ = write!(line, "{cell:<width$}  ");
-        }
+    for line in table.lines() {
         writeln!(out, "{}", line.trim_end())?;
     }
     Ok(())

@@ -6,4 +6,4 @@ mod write;
 
 pub use read::{read_at_most, read_regular};
 #[cfg(feature = "reports")]
-pub use write::{WriteError, write_all, write_whole};
+pub use write::{WriteError, is_replaceable, write_all, write_whole};

@@ -49,6 +49,11 @@ pub fn write_all<P: AsRef<Path>, B: AsRef<[u8]>>(files: &[(P, B)]) -> Result<(),
     Ok(())
 }
 
+/// Whether a path names a regular file, there or yet to be written, rather than a device, a pipe or a folder.
+pub fn is_replaceable(path: &Path) -> bool {
+    matches!(Target::of(path), Ok(Target::File(_)))
+}
+
 /// The place that a path names.
 enum Target {
     /// A regular file, or none yet.

@@ -107,10 +107,12 @@ const AMBIGUOUS_LEAD: f64 = 0.02;
 pub(super) fn point_warnings(used: &UsedPoints, params: &Params) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let (strays, points) = (used.strays.len(), used.all);
-    match params.filters.keep_strays {
-        _ if strays == 0 => {}
-        false => warnings.push(Warning::StraysLeftOut { strays, points }),
-        true => warnings.push(Warning::StraysKept { strays, points }),
+    if strays > 0 {
+        warnings.push(if params.filters.keep_strays {
+            Warning::StraysKept { strays, points }
+        } else {
+            Warning::StraysLeftOut { strays, points }
+        });
     }
     let (points, k) = (used.filtered, params.k.get());
     if let Some(sample) = used.sample {

@@ -5,6 +5,7 @@ use pulp::Simd;
 
 use super::Neighbors;
 use super::block::{Block, Column};
+use super::exact::ExactBoxes;
 use super::lanes::BLOCK;
 use super::traversal::Traversal;
 use super::tree::LEAF;
@@ -145,7 +146,8 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
             last,
         );
         if block.looked.is_empty() {
-            return index.exact_boxes().nearest(index, query, best).2;
+            let exact_boxes = index.exact_boxes.get_or_init(|| ExactBoxes::new(index));
+            return exact_boxes.nearest(index, query, best).2;
         }
         // What is not inlined is built for this machine's vector instructions only in here.
         self.simd.vectorize(|| {

@@ -28,6 +28,7 @@
 //!
 //! The bound grows with the size of boxes and leaves, hardly with their distance. Where rounding leaves no number,
 //! a comparison counts as within reach. Clumps, strays and huge coordinates thus make a search slower, never wrong.
+//! Queries so far away that the bound hides all differences are answered in double precision alone (`exact`).
 //! Exact duplicates are removed first: no box can tell them apart.
 
 #![allow(
@@ -169,10 +170,6 @@ impl Neighbors {
         let position = leaf * LEAF + distances.iter().position(|&d| d == least).unwrap_or(0);
         let found = (least, self.first[position], position);
         if found < best { found } else { best }
-    }
-
-    fn exact_boxes(&self) -> &ExactBoxes {
-        self.exact_boxes.get_or_init(|| ExactBoxes::new(self))
     }
 
     #[inline(always)]

@@ -31,7 +31,7 @@ pub enum SimulateError {
     LooksAtItself,
     /// A mesh does not fit between the camera's nearest and farthest depth.
     #[error(
-        "the mesh is {size_cm:.3} cm across, and the camera sees from {near_cm} to {far_cm} cm only: is the mesh's unit right?"
+        "the mesh is {size_cm:.1} cm across, and the camera sees from {near_cm} to {far_cm} cm only: is the mesh's unit right?"
     )]
     MeshTooLarge {
         /// The diameter of a ball around the mesh.

@@ -5,9 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{each_within, within};
 use super::scan::Scene;
-use super::{
-    DepthCamera, Pose, ScanSettings, Settings, SimulateError, Simulated, TriangleMesh, TrueAxis, Truth,
-};
+use super::truth::cloud_in_unit;
+use super::{DepthCamera, Pose, ScanSettings, Settings, SimulateError, TriangleMesh, TrueAxis, Truth};
 use crate::geometry::{Cloud, Unit};
 
 /// The views of a mesh: where it stands and from where it is looked at.
@@ -71,12 +70,10 @@ pub struct ScannedMesh {
 }
 
 impl ScannedMesh {
-    /// The cloud and its truth, where there is one.
-    pub fn simulated(&self) -> Option<Simulated> {
-        Some(Simulated {
-            cloud: self.cloud.clone(),
-            truth: self.truth.clone()?,
-        })
+    /// Returns the cloud in a unit, with its truth if there is one.
+    pub fn in_unit(&self, unit: Unit) -> (Cloud, Option<Truth>) {
+        let cloud = cloud_in_unit(&self.cloud, Unit::Centimeter, unit);
+        (cloud, self.truth.clone().map(|truth| truth.in_unit(unit)))
     }
 }
 

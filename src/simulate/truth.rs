@@ -141,30 +141,10 @@ impl Truth {
 
 impl Simulated {
     /// Converts points and truth to another unit.
-    ///
-    /// # Panics
-    /// Never: the columns keep their lengths.
     #[must_use]
     pub fn in_unit(self, unit: Unit) -> Self {
-        let from = self.truth.unit;
-        let mut cloud = Cloud::new(
-            self.cloud
-                .positions()
-                .iter()
-                .map(|&p| rescale(p, from, unit))
-                .collect(),
-        );
-        if let Some(normals) = self.cloud.normals() {
-            cloud = cloud.with_normals(normals.to_vec()).expect(LENGTHS);
-        }
-        if let Some(colors) = self.cloud.colors() {
-            cloud = cloud.with_colors(colors.to_vec()).expect(LENGTHS);
-        }
-        if let Some(labels) = self.cloud.labels() {
-            cloud = cloud.with_labels(labels.to_vec()).expect(LENGTHS);
-        }
         Self {
-            cloud,
+            cloud: cloud_in_unit(&self.cloud, self.truth.unit, unit),
             truth: self.truth.in_unit(unit),
         }
     }
@@ -192,9 +172,15 @@ impl Simulated {
     }
 }
 
-/// The reason why a column always fits: simulated points are at most meters away and thus finite in any
-/// unit, so none is left out.
-const LENGTHS: &str = "a column keeps its length";
+/// Converts simulated points, which are at most meters away and thus finite in any unit.
+pub(super) fn cloud_in_unit(cloud: &Cloud, from: Unit, to: Unit) -> Cloud {
+    let positions = cloud.positions().iter().map(|&p| rescale(p, from, to));
+    Cloud::new(positions.collect()).with_columns(
+        cloud.normals().map(<[_]>::to_vec),
+        cloud.colors().map(<[_]>::to_vec),
+        cloud.labels().map(<[_]>::to_vec),
+    )
+}
 
 fn rescale(length: DVec3, from: Unit, to: Unit) -> DVec3 {
     if from == to {

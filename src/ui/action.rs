@@ -21,8 +21,8 @@ pub enum WindowAct {
     OpenFolder,
     /// Show the simulator and its pepper.
     Simulate,
-    /// Ask for a path, and save the simulated pepper.
-    SaveSimulated,
+    /// Ask for a path, and save the current cloud, which lies in no file.
+    SaveCloud,
     /// Ask for the size of a picture of the view.
     SaveImage,
     /// Ask for the path of a picture of this size in pixels, and save it.

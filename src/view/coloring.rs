@@ -293,12 +293,7 @@ fn by_value(
 
 /// Round values from zero to `high`, which itself is the last one.
 fn ticks(high: f64) -> Vec<(f64, String)> {
-    let magnitude = 10_f64.powf((high / 3.0).log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0]
-        .map(|s| s * magnitude)
-        .into_iter()
-        .find(|s| high / s <= 4.0)
-        .unwrap_or(high);
+    let step = round_step(high, 4.0);
     let mut ticks: Vec<(f64, String)> = (0..=4)
         .map(|i| f64::from(i) * step)
         // Too near to the upper end the numbers would overlap.
@@ -307,6 +302,18 @@ fn ticks(high: f64) -> Vec<(f64, String)> {
         .collect();
     ticks.push((1.0, digits(high, high)));
     ticks
+}
+
+/// Returns the step of 1, 2 or 5 times a power of ten that gives at most `count` ticks up to `most`.
+pub fn round_step(most: f64, count: f64) -> f64 {
+    let rough = most / count;
+    let power = 10_f64.powf(rough.log10().floor());
+    let part = rough / power;
+    power
+        * [1.0, 2.0, 5.0]
+            .into_iter()
+            .find(|whole| part <= *whole)
+            .unwrap_or(10.0)
 }
 
 /// A value with the digits that a scale up to `high` resolves.

@@ -718,4 +718,24 @@ fn a_whole_scan_is_shown_and_can_be_looked_at_from_where_the_eye_is() {
     assert_eq!(analysis.params.viewpoint, app.state().camera.eye_in_world);
     act(&mut app, Command::Undo);
     assert!(app.state().is_viewpoint_inside);
+
+    // Or a depth camera takes the place of the eye, and what it sees is another cloud.
+    act(&mut app, Command::ScanFromHere);
+    let (whole, seen) = (
+        app.state().entries[0].source.clone(),
+        app.state().source().cloned(),
+    );
+    assert_eq!(app.state().entries.len(), 2);
+    assert_ne!(Some(whole), seen);
+    let walked = app.state().walked.clone().expect("analyzed");
+    let count = walked.fruit.cloud().len();
+    assert!((1_000..5_000).contains(&count), "{count} of 6000 points are seen");
+    assert!(
+        walked.fruit.cloud().positions().iter().all(|p| p.z > 0.0),
+        "before the camera"
+    );
+    let saved = folder.path().join("seen.ply");
+    act(&mut app, Command::SaveCloud(saved.clone()));
+    let read = axiscope::fruit::read_cloud(&saved).expect("written");
+    assert_eq!(read.ply.cloud.len(), count);
 }

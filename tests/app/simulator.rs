@@ -152,7 +152,7 @@ fn a_saved_pepper_is_the_one_that_was_shown() {
     simulate(&mut app, SimulatorCommand::Open);
     lean(&mut app, 15.0);
     let error = app.state().simulated_error_deg();
-    simulate(&mut app, SimulatorCommand::Save(path.clone()));
+    act(&mut app, Command::SaveCloud(path.clone()));
     let text = app.state().messages.last().map(|m| m.text.clone()).expect("told");
     assert!(text.starts_with("Saved ") && text.contains("mine.ply"), "{text}");
     act(&mut app, Command::Open(vec![path]));
@@ -164,7 +164,8 @@ fn a_saved_pepper_is_the_one_that_was_shown() {
     assert!((read - error.expect("an axis")).abs() < 0.01);
 
     let nowhere = folder.path().join("no/such/folder.ply");
-    simulate(&mut app, SimulatorCommand::Save(nowhere));
+    simulate(&mut app, SimulatorCommand::Open);
+    act(&mut app, Command::SaveCloud(nowhere));
     let message = app.state().messages.last().expect("told");
     assert!(
         message.is_error && message.text.contains("folder.ply"),

@@ -95,6 +95,8 @@ impl Inspector {
             | Command::Scale(_)
             | Command::Dismiss(_)
             | Command::Simulate(_)
+            | Command::ScanFromHere
+            | Command::SaveCloud(_)
             | Command::Say { .. } => {}
         }
     }

@@ -1,76 +1,13 @@
 //! The cloud that is looked at, from its source to its analysis and the points that are shown.
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::app::samples::Sample;
-use crate::app::simulator::SimulatedPepper;
-use crate::fruit::{
-    CloudFile, Fruit, FruitError, PeduncleChoice, ReadError, ReadErrorKind, Request, parse_cloud,
-    read_cloud_watched,
-};
+use crate::app::source::{Content, Source};
+use crate::fruit::{Fruit, FruitError, PeduncleChoice, ReadErrorKind, Request};
 use crate::geometry::{Cloud, Unit};
 use crate::method::{Analysis, AnalysisError, Observe, Stages, Surface};
 use crate::parallel::Watch;
 use crate::view::ShownPoints;
-
-/// The source of a cloud.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum Source {
-    /// A file on disk.
-    File(PathBuf),
-    /// A sample that the program brings along.
-    Bundled(Sample),
-    /// A pepper of the simulator, which has no file.
-    Simulated(SimulatedPepper),
-}
-
-/// A cloud as its source gives it, with the text of its truth if that lies in no file.
-#[derive(Debug, Clone)]
-struct Content {
-    file: Arc<CloudFile>,
-    truth: Option<Arc<str>>,
-}
-
-impl Source {
-    /// Its path, or the name of the sample.
-    pub fn path(&self) -> &Path {
-        match self {
-            Self::File(path) => path,
-            Self::Bundled(sample) => Path::new(sample.path()),
-            Self::Simulated(_) => Path::new("<simulated>/simulated_pepper.ply"),
-        }
-    }
-
-    /// Its last part, for lists and titles.
-    pub fn name(&self) -> String {
-        let path = self.path();
-        path.file_name()
-            .unwrap_or(path.as_os_str())
-            .to_string_lossy()
-            .into_owned()
-    }
-
-    /// Whether the cloud lies in a file, beside which others can be kept.
-    pub fn is_file(&self) -> bool {
-        matches!(self, Self::File(_))
-    }
-
-    fn read(&self, watch: &dyn Watch) -> Result<Content, ReadError> {
-        let (file, truth) = match self {
-            Self::File(path) => (read_cloud_watched(path, watch)?, None),
-            Self::Bundled(sample) => {
-                let file = parse_cloud(sample.path(), sample.bytes())?;
-                (file, Some(sample.truth().into()))
-            }
-            Self::Simulated(pepper) => pepper.read(self.path())?,
-        };
-        Ok(Content {
-            file: Arc::new(file),
-            truth,
-        })
-    }
-}
 
 #[derive(Debug, Clone, PartialEq)]
 struct FruitKey {

@@ -6,9 +6,10 @@ use std::time::Duration;
 use super::apply::{choice_of, step};
 use super::look::{Look, LookRequest, look};
 use super::navigate::{default_camera, framed_camera};
-use super::stages::{AnalyzeError, AnalyzedFruit, FruitStages, Source};
+use super::stages::{AnalyzeError, AnalyzedFruit, FruitStages};
 use super::{Inspector, Pick};
 use crate::app::context::Context;
+use crate::app::source::Source;
 use crate::app::state::{PlaneChoice, State};
 use crate::app::workers::{Crashed, PATIENCE};
 use crate::evaluate::collect_references;
@@ -56,6 +57,11 @@ impl Inspector {
     /// Sets the camera anew as soon as another cloud is there.
     pub(in crate::app) fn turn_to_cloud(&mut self) {
         self.needs_framing = true;
+    }
+
+    /// Frames the next cloud as the first one is: what was seen of the last has nothing to do with it.
+    pub(in crate::app) fn forget_framing(&mut self) {
+        self.framed = None;
     }
 
     /// No cloud is open any more.

@@ -2,15 +2,16 @@
 
 mod camera;
 mod pepper;
+mod scan;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use axiscope::files;
 use axiscope::fruit::simulated_files;
-use axiscope::geometry::Unit;
+use axiscope::geometry::{Cloud, Unit};
 use axiscope::ply::Encoding;
-use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, seeds};
+use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, Truth, seeds};
 use clap::{Args, Subcommand};
 use glam::DVec3;
 
@@ -18,6 +19,7 @@ use super::options::{Depths, depths, number, pair, position};
 use super::output::{is_standard_output, say};
 use super::{progress, usage_error};
 use pepper::Pepper;
+use scan::Scan;
 
 #[derive(Debug, Args)]
 pub(super) struct Simulate {
@@ -31,6 +33,8 @@ enum Shape {
     Ellipsoid(Ellipsoid),
     /// A lobed, tapered pepper with a peduncle, as a depth camera sees it
     Pepper(Box<Pepper>),
+    /// A mesh from a file, as a depth camera sees it
+    Scan(Box<Scan>),
 }
 
 /// The number of the clouds, and their files.
@@ -47,18 +51,26 @@ struct Output {
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Unit of the file's coordinates
-    #[arg(long, value_enum, default_value = "cm")]
-    unit: Unit,
     /// Encoding of the numbers in the file
     #[arg(long, value_enum, default_value = "binary")]
     encoding: Encoding,
+}
+
+/// The unit of clouds that are made from nothing.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+struct OutputUnit {
+    /// Unit of the file's coordinates
+    #[arg(long, value_enum, default_value = "cm")]
+    unit: Unit,
 }
 
 #[derive(Debug, Args)]
 struct Ellipsoid {
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    unit: OutputUnit,
     /// Half-axes along x, y and z, in cm
     #[arg(long, value_name = "X,Y,Z", default_value = "2.5,2.5,2", value_parser = position, allow_hyphen_values = true)]
     half_axes_cm: DVec3,
@@ -87,6 +99,7 @@ pub(super) fn run(args: &Simulate) -> anyhow::Result<()> {
     match &args.shape {
         Shape::Ellipsoid(args) => ellipsoids(args),
         Shape::Pepper(args) => peppers(args),
+        Shape::Scan(args) => scan::run(args),
     }
 }
 
@@ -116,12 +129,9 @@ fn ellipsoids(args: &Ellipsoid) -> anyhow::Result<()> {
         );
     }
     let jobs = jobs.into_iter().map(|(name, z0, seed)| (name, at(z0, seed)));
-    write_all(
-        &args.output,
-        "ellipsoid",
-        &jobs.collect::<Vec<_>>(),
-        EllipsoidSettings::simulate,
-    )
+    write_all(&args.output, "ellipsoid", &jobs.collect::<Vec<_>>(), |settings| {
+        Ok(of_simulated(settings.simulate()?, args.unit.unit))
+    })
 }
 
 fn peppers(args: &Pepper) -> anyhow::Result<()> {
@@ -135,13 +145,30 @@ fn peppers(args: &Pepper) -> anyhow::Result<()> {
         (format!("pepper_{i:03}"), settings)
     });
     write_all(&args.output, "pepper", &jobs.collect::<Vec<_>>(), |settings| {
-        let simulated = settings.simulate()?;
-        Ok(if args.without_peduncle {
-            simulated.without_peduncle()
-        } else {
-            simulated
-        })
+        let mut simulated = settings.simulate()?;
+        if args.without_peduncle {
+            simulated = simulated.without_peduncle();
+        }
+        Ok(of_simulated(simulated, args.unit.unit))
     })
+}
+
+/// A cloud with its unit, and the truth about it, where there is one.
+struct Made {
+    cloud: Cloud,
+    unit: Unit,
+    seed: u64,
+    truth: Option<Truth>,
+}
+
+fn of_simulated(simulated: Simulated, unit: Unit) -> Made {
+    let Simulated { cloud, truth } = simulated.in_unit(unit);
+    Made {
+        cloud,
+        unit,
+        seed: truth.seed,
+        truth: Some(truth),
+    }
 }
 
 /// Simulates each job and writes it, one after the other. The same seed gives the same bytes.
@@ -149,11 +176,13 @@ fn write_all<S>(
     output: &Output,
     shape: &str,
     jobs: &[(String, S)],
-    simulate: impl Fn(&S) -> Result<Simulated, SimulateError>,
+    simulate: impl Fn(&S) -> Result<Made, SimulateError>,
 ) -> anyhow::Result<()> {
     let simulate = |settings: &S| {
         simulate(settings).map_err(|error| match error {
-            SimulateError::Setting { .. } | SimulateError::ViewpointInside => usage_error(&error.to_string()),
+            SimulateError::Setting { .. } | SimulateError::ViewpointInside | SimulateError::LooksAtItself => {
+                usage_error(&error.to_string())
+            }
             _ => error.into(),
         })
     };
@@ -167,13 +196,15 @@ fn write_all<S>(
         } else {
             path
         };
-        let simulated = simulate(settings)?;
-        write_cloud(&path, &simulated, output)?;
-        let (name, points) = (path.display(), simulated.cloud.len());
-        if has_name(&path) {
+        let made = simulate(settings)?;
+        write_cloud(&path, &made, output)?;
+        let (name, points) = (path.display(), made.cloud.len());
+        if !has_name(&path) {
+            say!("Wrote {points} points; a truth is written only beside a file.");
+        } else if made.truth.is_some() {
             say!("Wrote {name} ({points} points) and its truth beside it.");
         } else {
-            say!("Wrote {points} points; their truth is written only beside a file.");
+            say!("Wrote {name} ({points} points) without a truth, since its axis is not known.");
         }
         return Ok(());
     }
@@ -193,31 +224,38 @@ fn write_all<S>(
     std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
     let bar = progress::bar("Simulating {wide_bar} {pos}/{len}");
     bar.set_length(jobs.len() as u64);
+    let mut truths = 0;
     for (name, settings) in jobs {
-        let simulated = simulate(settings).with_context(|| name.clone())?;
-        write_cloud(&folder.join(format!("{name}.ply")), &simulated, output)?;
+        let made = simulate(settings).with_context(|| name.clone())?;
+        truths += usize::from(made.truth.is_some());
+        write_cloud(&folder.join(format!("{name}.ply")), &made, output)?;
         bar.inc(1);
     }
     bar.finish_and_clear();
-    say!(
-        "Wrote {} clouds with their truths to {}.",
-        jobs.len(),
-        folder.display()
-    );
+    let with = if truths > 0 { "with their truths " } else { "" };
+    say!("Wrote {} clouds {with}to {}.", jobs.len(), folder.display());
     Ok(())
 }
 
 /// Writes `NAME.ply` and `NAME.truth.json`, both whole or not at all; to standard output or a device only the cloud.
-fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::Result<()> {
-    let both = simulated_files(path, simulated, output.unit, output.encoding)?;
+fn write_cloud(path: &Path, made: &Made, output: &Output) -> anyhow::Result<()> {
+    let truth = made.truth.as_ref();
+    let written = simulated_files(path, &made.cloud, truth, made.seed, made.unit, output.encoding)?;
     if !has_name(path) {
-        return super::output::write(path, &both[0].1);
+        return super::output::write(path, &written[0].1);
     }
-    Ok(files::write_all(&both)?)
+    let truth_path = path.with_extension("truth.json");
+    if truth.is_none() && truth_path.exists() {
+        anyhow::bail!(
+            "{}: this would be taken for the truth about the new cloud, which has none; remove it or write elsewhere",
+            truth_path.display()
+        );
+    }
+    Ok(files::write_all(&written)?)
 }
 
 /// Whether a path names a regular file, there or yet to be written, so that another can stand beside it: not standard
 /// output, a device or a pipe.
 fn has_name(path: &Path) -> bool {
-    !is_standard_output(path) && !path.starts_with("/dev") && !path.exists() || path.is_file()
+    !is_standard_output(path) && files::is_replaceable(path)
 }

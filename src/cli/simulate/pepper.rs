@@ -9,7 +9,7 @@ use clap::Args;
 use glam::DVec3;
 
 use super::camera::{CameraOptions, ViewOptions};
-use super::{Output, set};
+use super::{Output, OutputUnit, set};
 use crate::cli::options::{pair, position};
 
 /// The settings of a pepper; the seed draws those that are not given.
@@ -18,6 +18,8 @@ use crate::cli::options::{pair, position};
 pub(super) struct Pepper {
     #[command(flatten)]
     pub(super) output: Output,
+    #[command(flatten)]
+    pub(super) unit: OutputUnit,
     /// Leave the peduncle's points out: the paper's second variant (§ 3.2)
     #[arg(long)]
     pub(super) without_peduncle: bool,

@@ -256,16 +256,22 @@ fn notices(ui: &mut egui::Ui, rect: Rect, state: &State, commands: &mut Vec<Comm
         at.y += size.y + 16.0;
     }
     if state.is_viewpoint_inside {
-        let button = egui::Button::new("Look from here");
+        let look = "Look from here";
         let tip = "Takes the eye of this view as the viewpoint: the place of a camera that saw these points. For a whole \
                    scan no place is right for all of them; turn it so that the side you want faces you.";
-        let size = vec2(120.0, ui.spacing().interact_size.y);
-        if ui
-            .put(Rect::from_min_size(at, size), button)
-            .on_hover_text(tip)
-            .clicked()
-        {
-            commands.push(Command::LookFromHere);
+        let scan = "Scan from here";
+        let scan_tip = "Makes a cloud of the points that a depth camera in the place of this view would see. The cloud before \
+                        stays in the list.";
+        for (text, tip, command) in [
+            (look, tip, Command::LookFromHere),
+            (scan, scan_tip, Command::ScanFromHere),
+        ] {
+            let place = Rect::from_min_size(at, vec2(124.0, ui.spacing().interact_size.y));
+            let response = ui.put(place, egui::Button::new(text)).on_hover_text(tip);
+            if response.clicked() {
+                commands.push(command);
+            }
+            at.x += 132.0;
         }
     }
 }

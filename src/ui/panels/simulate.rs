@@ -46,10 +46,11 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<W
             say(SimulatorCommand::Reset);
         }
         let tip = "Saves the cloud as a PLY file, and its truth beside it.";
-        if ui.button("Save …").on_hover_text(tip).clicked() {
-            asked = Some(WindowAct::SaveSimulated);
-        }
-        if !state.shows_simulated() && ui.button("Show it").clicked() {
+        if state.shows_simulated() {
+            if ui.button("Save …").on_hover_text(tip).clicked() {
+                asked = Some(WindowAct::SaveCloud);
+            }
+        } else if ui.button("Show it").clicked() {
             say(SimulatorCommand::Open);
         }
     });

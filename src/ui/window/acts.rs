@@ -5,7 +5,7 @@ use egui::ViewportCommand;
 use super::Window;
 use crate::app::command_line;
 use crate::app::many::evaluate_command_line;
-use crate::app::{Command, PeduncleCommand, SimulatorCommand, quoted};
+use crate::app::{Command, PeduncleCommand, SimulatorCommand, Source, quoted};
 use crate::fruit::companion_path;
 use crate::ui::action::WindowAct;
 use crate::ui::pane::Pane;
@@ -35,7 +35,10 @@ impl Window {
                 self.act(ctx, WindowAct::Show(Pane::Simulate));
                 self.app.apply(Command::Simulate(SimulatorCommand::Open));
             }
-            WindowAct::SaveSimulated => dialogs::save_simulated(ctx, &answers),
+            WindowAct::SaveCloud => {
+                let name = self.app.state().source().map(Source::name);
+                dialogs::save_cloud(ctx, &answers, name.as_deref().unwrap_or("cloud.ply"));
+            }
             WindowAct::SaveImage => self.saving = Some(SaveImage::new(view_size(self.app.state()))),
             WindowAct::SaveImageOf(size_px) => {
                 let name = self.app.state().source().map(|s| s.path().with_extension("png"));

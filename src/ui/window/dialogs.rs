@@ -15,8 +15,8 @@ pub enum Asked {
     Open(Vec<PathBuf>),
     /// The path for a picture of the view, and its size in pixels.
     SaveImage(PathBuf, [u32; 2]),
-    /// The path for the simulated pepper.
-    SaveSimulated(PathBuf),
+    /// The path for the current cloud.
+    SaveCloud(PathBuf),
     /// A command with a path for the peduncle.
     Peduncle(PeduncleCommand),
     /// The folder that gets a new one with the results.
@@ -56,15 +56,15 @@ pub fn save_image(ctx: &egui::Context, answers: &Sender<Asked>, name: &str, size
     });
 }
 
-/// Asks for the path of the simulated pepper.
-pub fn save_simulated(ctx: &egui::Context, answers: &Sender<Asked>) {
+/// Asks for the path of a cloud that lies in no file yet.
+pub fn save_cloud(ctx: &egui::Context, answers: &Sender<Asked>, name: &str) {
     let answer = AsyncFileDialog::new()
-        .set_title("Save the simulated pepper, and its truth beside it")
-        .set_file_name("simulated_pepper.ply")
+        .set_title("Save the cloud, and its truth beside it")
+        .set_file_name(name)
         .add_filter("Point clouds (PLY)", &["ply"])
         .save_file();
     wait(ctx, answers, async move {
-        Some(Asked::SaveSimulated(path_of(&answer.await?)))
+        Some(Asked::SaveCloud(path_of(&answer.await?)))
     });
 }
 

@@ -2,9 +2,11 @@
 
 mod camera;
 mod ellipsoid;
+mod meshes;
 mod pepper;
 mod scans;
 mod seeds;
+mod seen_points;
 mod truth;
 
 use axiscope::simulate::{DepthCamera, PepperSettings, Settings, SimulateError, Simulated, Truth};
