@@ -6,8 +6,11 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
+use super::MeshFormatError;
 use crate::parallel::{Cancelled, PartOf, Watch};
 use crate::ply::{self, PlyCloud, PlyError, Problem};
+use crate::simulate::{MeshError, SimulateError};
+use crate::text::one_line;
 
 /// A cloud and its file.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +25,7 @@ pub struct CloudFile {
 
 /// A file that gives no cloud. Displayed as one line: the file, then the cause.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {kind}", on_one_line(.path))]
+#[error("{}: {kind}", one_line(&.path.display().to_string()))]
 pub struct ReadError {
     /// The file's path, as it was given.
     pub path: PathBuf,
@@ -58,6 +61,15 @@ pub enum ReadErrorKind {
     /// It is no PLY file, or a malformed one.
     #[error(transparent)]
     Ply(PlyError),
+    /// The simulator gives no cloud with these settings.
+    #[error(transparent)]
+    Simulation(#[from] SimulateError),
+    /// It is no mesh, or a malformed one.
+    #[error(transparent)]
+    MeshFormat(#[from] MeshFormatError),
+    /// Its triangles cannot be used.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
     /// Reading was called off.
     #[error("reading was called off")]
     Cancelled,
@@ -174,7 +186,8 @@ fn digest(bytes: &[u8], watch: &dyn Watch) -> Result<String, Cancelled> {
 /// The number of bytes between two questions to the watch: a few milliseconds.
 const PIECE: u64 = 4 << 20;
 
-fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
+/// Reads a regular file of a size that memory can hold.
+pub(super) fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
     // Before the file is opened: opening a pipe waits for a writer.
     let metadata = std::fs::metadata(path)?;
     if metadata.is_dir() {
@@ -205,16 +218,4 @@ fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
 /// SHA-256 of some bytes, in 64 lowercase hexadecimal digits.
 pub fn sha256_hex(bytes: &[u8]) -> String {
     hex::encode(Sha256::digest(bytes))
-}
-
-/// A path for a message of one line: names of files may hold line ends.
-fn on_one_line(path: &Path) -> String {
-    let escape = |c: char| {
-        if c.is_control() {
-            c.escape_default().collect()
-        } else {
-            String::from(c)
-        }
-    };
-    path.display().to_string().chars().map(escape).collect()
 }

@@ -4,10 +4,12 @@
 mod axis_files;
 mod cloud_file;
 mod listing;
+mod mesh_file;
 mod picked;
 mod read;
 mod request;
 mod request_options;
+mod simulated_files;
 pub mod unit_guess;
 
 pub use axis_files::{AxisFile, AxisFiles, annotation_paths, read_annotations};
@@ -16,6 +18,8 @@ pub use cloud_file::{
     sha256_hex,
 };
 pub use listing::{clouds_in, files_behind};
+pub use mesh_file::{MeshFile, MeshFormatError, read_mesh};
 pub use picked::PickedPoints;
 pub use read::{Fruit, FruitError, PeduncleChoice, companion_path, removed_path, truth_path};
 pub use request::Request;
+pub use simulated_files::simulated_files;

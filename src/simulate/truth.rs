@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::{EllipsoidSettings, PepperSettings};
+use super::{EllipsoidSettings, MeshScanSettings, PepperSettings};
 use crate::geometry::{Cloud, Unit};
 
 /// A cloud and the truth about it.
@@ -27,12 +27,12 @@ pub struct TrueAxis {
 /// The pose of the fruit: `point_in_camera = rotation · point_in_fruit + translation`.
 ///
 /// The fruit's frame has its origin in the fruit's center and its y axis towards the stem end; an
-/// upright fruit of zero spin has x to the image's right, y up and z towards the camera.
+/// upright fruit of zero spin has x to the image's right, y up and z towards the camera. A mesh has its file's own frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Three rows of a rotation matrix.
     pub rotation: [[f64; 3]; 3],
-    /// The fruit's center in the camera's frame, in the truth's unit.
+    /// The fruit's center, or the origin of a mesh's frame, in the camera's frame, in the truth's unit.
     pub translation: DVec3,
 }
 
@@ -60,12 +60,14 @@ pub enum Settings {
     Ellipsoid(EllipsoidSettings),
     /// A pepper before a depth camera.
     Pepper(Box<PepperSettings>),
+    /// A mesh before a depth camera.
+    Mesh(Box<MeshScanSettings>),
 }
 
 /// The truth about a simulated cloud: the content of a `.truth.json` file.
 ///
 /// Lengths are in [`Truth::unit`], the cloud's own, except in the settings, whose names say `_cm`.
-/// In JSON the settings are two fields: `kind` (`"ellipsoid"` or `"pepper"`) and `settings`.
+/// In JSON the settings are two fields: `kind` (`"ellipsoid"`, `"pepper"` or `"mesh"`) and `settings`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
     /// [`Truth::SCHEMA`].
@@ -100,6 +102,10 @@ pub struct Truth {
     pub without_peduncle: bool,
     /// The fraction of the fruit's and the peduncle's pixels that a leaf hides, measured; `None` without a leaf.
     pub hidden_by_leaf: Option<f64>,
+    /// The fraction of the fruit's surface, without peduncle and leaf, that was seen from any view at less than the
+    /// camera's grazing angle; `None` in truths that were written before this was measured.
+    #[serde(default)]
+    pub coverage: Option<f64>,
     /// The kind of simulation and its settings.
     #[serde(flatten)]
     pub settings: Settings,
@@ -108,6 +114,15 @@ pub struct Truth {
 impl Truth {
     /// The name and version of the format.
     pub const SCHEMA: &'static str = "axiscope.truth/1";
+
+    /// The lean: the angle between the axis and the plane across the view ray, in degrees, -90 to 90, positive where the
+    /// stem end leans towards the viewpoint. Eq. 16 gives axes in that plane only, so that each is wrong by the lean at
+    /// least.
+    pub fn lean_deg(&self) -> f64 {
+        let to_viewpoint = (self.viewpoint - self.center).normalize_or_zero();
+        let sin = self.axis.direction.dot(to_viewpoint);
+        sin.clamp(-1.0, 1.0).asin().to_degrees()
+    }
 
     /// Converts all lengths to another unit, except for the settings, which stay in centimeters.
     #[must_use]
@@ -126,30 +141,10 @@ impl Truth {
 
 impl Simulated {
     /// Converts points and truth to another unit.
-    ///
-    /// # Panics
-    /// Never: the columns keep their lengths.
     #[must_use]
     pub fn in_unit(self, unit: Unit) -> Self {
-        let from = self.truth.unit;
-        let mut cloud = Cloud::new(
-            self.cloud
-                .positions()
-                .iter()
-                .map(|&p| rescale(p, from, unit))
-                .collect(),
-        );
-        if let Some(normals) = self.cloud.normals() {
-            cloud = cloud.with_normals(normals.to_vec()).expect(LENGTHS);
-        }
-        if let Some(colors) = self.cloud.colors() {
-            cloud = cloud.with_colors(colors.to_vec()).expect(LENGTHS);
-        }
-        if let Some(labels) = self.cloud.labels() {
-            cloud = cloud.with_labels(labels.to_vec()).expect(LENGTHS);
-        }
         Self {
-            cloud,
+            cloud: cloud_in_unit(&self.cloud, self.truth.unit, unit),
             truth: self.truth.in_unit(unit),
         }
     }
@@ -177,9 +172,15 @@ impl Simulated {
     }
 }
 
-/// The reason why a column always fits: simulated points are at most meters away and thus finite in any
-/// unit, so none is left out.
-const LENGTHS: &str = "a column keeps its length";
+/// Converts simulated points, which are at most meters away and thus finite in any unit.
+pub(super) fn cloud_in_unit(cloud: &Cloud, from: Unit, to: Unit) -> Cloud {
+    let positions = cloud.positions().iter().map(|&p| rescale(p, from, to));
+    Cloud::new(positions.collect()).with_columns(
+        cloud.normals().map(<[_]>::to_vec),
+        cloud.colors().map(<[_]>::to_vec),
+        cloud.labels().map(<[_]>::to_vec),
+    )
+}
 
 fn rescale(length: DVec3, from: Unit, to: Unit) -> DVec3 {
     if from == to {

@@ -2,8 +2,11 @@
 
 mod camera;
 mod ellipsoid;
+mod meshes;
 mod pepper;
+mod scans;
 mod seeds;
+mod seen_points;
 mod truth;
 
 use axiscope::simulate::{DepthCamera, PepperSettings, Settings, SimulateError, Simulated, Truth};
@@ -52,7 +55,7 @@ fn labelled(simulated: &Simulated, label: i32) -> Vec<DVec3> {
 fn settings_of(truth: &Truth) -> &PepperSettings {
     match &truth.settings {
         Settings::Pepper(settings) => settings,
-        Settings::Ellipsoid(_) => panic!("not a pepper"),
+        _ => panic!("not a pepper"),
     }
 }
 

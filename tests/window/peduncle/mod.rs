@@ -27,8 +27,11 @@ fn click(harness: &mut Windowed, label: &str) {
     settle(harness);
 }
 
+/// The folder of the pictures.
+const FOLDER: &str = "screenshots/peduncle";
+
 fn snapshot(harness: &mut Windowed, name: &str) {
-    compare(harness, "screenshots/peduncle", name);
+    compare(harness, FOLDER, name);
 }
 
 /// A copy of the bundled pepper of which only positions, or positions and colors, are left.
