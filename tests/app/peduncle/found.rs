@@ -54,8 +54,7 @@ fn a_folder_without_peduncles_tells_what_it_lacks_and_what_does_not_fit() {
         &mut app,
         PeduncleCommand::Choose(PeduncleChoice::Removed(removed.clone())),
     );
-    let now = fruit(&app).clone();
-    let found = now.peduncle.as_ref().expect("found");
+    let found = fruit(&app).peduncle.as_ref().expect("found");
     assert_eq!(
         (found.source, found.points),
         (PeduncleSource::Removal, labeled().len())
@@ -63,21 +62,15 @@ fn a_folder_without_peduncles_tells_what_it_lacks_and_what_does_not_fit() {
     // Another fruit under the same name.
     std::fs::copy(asset("ellipsoid.ply"), removed.join("a.ply")).expect("copied");
     act(&mut app, Command::Reload);
-    let now = fruit(&app).clone();
-    assert!(now.peduncle.is_none());
-    let problem = now.peduncle_problem.as_ref().expect("told");
+    assert!(fruit(&app).peduncle.is_none());
+    let problem = fruit(&app).peduncle_problem.as_ref().expect("told");
     assert!(problem.contains("not the same cloud"), "{problem}");
     ask(
         &mut app,
         PeduncleCommand::Choose(PeduncleChoice::File("no/such.ply".into())),
     );
-    let now = fruit(&app).clone();
-    assert!(
-        now.peduncle_problem
-            .as_ref()
-            .expect("told")
-            .contains("no/such.ply")
-    );
+    let problem = fruit(&app).peduncle_problem.as_ref().expect("told");
+    assert!(problem.contains("no/such.ply"));
 }
 
 #[test]
@@ -95,8 +88,8 @@ fn a_dropped_companion_is_offered() {
     assert_eq!(app.state().entries.len(), 1);
     ask(&mut app, PeduncleCommand::Choose(PeduncleChoice::File(dropped)));
     assert_eq!(app.state().peduncle.question, None);
-    let fruit = fruit(&app);
-    assert_eq!(fruit.peduncle.as_ref().map(|p| p.points), Some(labeled().len()));
+    let found = fruit(&app).peduncle.as_ref();
+    assert_eq!(found.map(|p| p.points), Some(labeled().len()));
 }
 
 #[test]
