@@ -60,36 +60,39 @@ fn farthest_from_sphere(scanned: &ScannedMesh) -> f64 {
 }
 
 #[test]
-fn a_scan_of_a_sphere_lies_on_it_and_covers_the_cap_that_faces_the_camera() {
-    let one = exactly(1, 0.0).scan(&sphere()).expect("seen");
+fn a_scan_of_a_sphere_lies_on_it_and_covers_what_faces_the_cameras() {
+    const GRAZING_DEG: f64 = 70.0;
+    let scan = |mut settings: MeshScanSettings| {
+        settings.camera.grazing_deg = GRAZING_DEG;
+        settings.scan(&sphere()).expect("seen")
+    };
+    let one = scan(exactly(1, 0.0));
     assert!(
         farthest_from_sphere(&one) < 0.01,
         "{}",
         farthest_from_sphere(&one)
     );
     let distance = one.pose.translation.length();
-    let cap = (1.0 - RADIUS / distance) / 2.0;
+    // The angle at the center between the camera and the points that it sees at the grazing angle.
+    let grazing = GRAZING_DEG.to_radians();
+    let widest = grazing - (RADIUS / distance * grazing.sin()).asin();
+    let cap = (1.0 - widest.cos()) / 2.0;
     assert!((one.coverage - cap).abs() < 0.01, "{} is not {cap}", one.coverage);
     assert!(one.truth.is_none(), "no axis is known");
     assert!(one.cloud.colors().is_none() && one.cloud.labels().is_none());
 
-    let around = exactly(24, 360.0).scan(&sphere()).expect("seen");
+    let around = scan(exactly(24, 360.0));
     let half_a_voxel = 0.1;
     assert!(
         farthest_from_sphere(&around) < half_a_voxel,
         "{}",
         farthest_from_sphere(&around)
     );
-    let all_but_both_ends = (1.0 - (RADIUS / distance).powi(2)).sqrt();
+    let all_but_both_ends = widest.sin();
     let off = (around.coverage - all_but_both_ends).abs();
     assert!(off < 0.02, "{} is not {all_but_both_ends}", around.coverage);
-    for (normal, p) in around
-        .cloud
-        .normals()
-        .expect("fused")
-        .iter()
-        .zip(around.cloud.positions())
-    {
+    let normals = around.cloud.normals().expect("fused").iter();
+    for (normal, p) in normals.zip(around.cloud.positions()) {
         let outward = (*p - around.pose.translation).normalize();
         assert!(normal.as_dvec3().dot(outward) > 0.9, "{normal} at {p}");
     }
