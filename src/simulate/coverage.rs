@@ -18,7 +18,8 @@ impl Seen {
     /// Adds the triangles that one view sees: those whose middle is not behind another surface, is in the camera's
     /// range, and is seen at less than the grazing angle. `mesh` is in the camera's frame.
     ///
-    /// Counting the triangles that the image's pixels show would miss those that are smaller than a pixel.
+    /// Counting the triangles that the image's pixels show would miss those that are smaller than a pixel. Up to a pixel
+    /// behind the rim, triangles count as seen, which a grazing angle below 90° leaves out.
     pub(super) fn add(&mut self, camera: &DepthCamera, mesh: &Mesh, image: &DepthImage) {
         let cos_grazing = camera.grazing_deg.to_radians().cos();
         let range = camera.near_cm..=camera.far_cm;

@@ -90,6 +90,11 @@ fn views_from_several_places_are_fused_and_repeat() {
     assert!(ran.err.contains("poses.txt: line 2 is not a pose"), "{}", ran.err);
     assert_eq!(run(["simulate", "pepper", "--views", "0"]).status, 2);
     assert_eq!(
+        run(["simulate", "pepper", "--arc", "90"]).status,
+        2,
+        "of one view"
+    );
+    assert_eq!(
         run(["simulate", "pepper", "--views", "3", "--poses", "x"]).status,
         2
     );

@@ -14,4 +14,5 @@ mod exchanging;
 mod extreme_numbers;
 mod figures;
 mod hostile_input;
+mod scanning;
 mod writing;

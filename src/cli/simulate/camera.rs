@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::set;
 use crate::cli::options::pair;
+use crate::cli::usage_error;
 
 /// The camera's errors of measurement.
 #[derive(Debug, Args)]
@@ -64,7 +65,7 @@ pub(super) struct ViewOptions {
 
 impl ViewOptions {
     /// # Errors
-    /// Returns an error if the file of poses cannot be read.
+    /// Returns an error if there is a way for a single view, or the file of poses cannot be read.
     pub(super) fn apply(&self, scan: &mut ScanSettings) -> anyhow::Result<()> {
         let on_a_way = self.views.is_some() || self.arc.is_some() || self.arc_up.is_some();
         if on_a_way {
@@ -74,6 +75,11 @@ impl ViewOptions {
         set(&mut scan.arc_deg, self.arc);
         set(&mut scan.arc_up_deg, self.arc_up);
         set(&mut scan.voxel_cm, self.voxel_cm);
+        if (self.arc.is_some() || self.arc_up.is_some()) && !scan.is_fused() {
+            return Err(usage_error(
+                "--arc and --arc-up describe the way of several views: give --views, too",
+            ));
+        }
         if let Some([degrees, cm]) = self.pose_noise {
             (scan.pose_noise_deg, scan.pose_noise_cm) = (degrees, cm);
         }

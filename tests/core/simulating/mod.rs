@@ -2,6 +2,7 @@
 
 mod camera;
 mod ellipsoid;
+mod mesh_files;
 mod meshes;
 mod pepper;
 mod scans;
