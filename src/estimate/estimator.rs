@@ -1,5 +1,8 @@
 //! The estimators, and the one call that runs any of them.
 
+use std::fmt;
+use std::str::FromStr;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Estimate, EstimateError, Surface, body, paper};
@@ -48,6 +51,59 @@ pub enum Prior {
     },
     /// The axis is about upright in the image, where y points down: fruits hang.
     Up,
+}
+
+impl Default for Prior {
+    /// A lean of up to 30° out of the image plane is free: fruits hang, and cameras look about level.
+    fn default() -> Self {
+        Self::Lean {
+            free_deg: 30.0,
+            sd_deg: 8.0,
+        }
+    }
+}
+
+impl fmt::Display for Prior {
+    /// Writes the prior as the command line takes it: `none`, `up`, or `lean=30,8` in degrees.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::None => f.write_str("none"),
+            Self::Lean { free_deg, sd_deg } => write!(f, "lean={free_deg},{sd_deg}"),
+            Self::Up => f.write_str("up"),
+        }
+    }
+}
+
+/// The text of no prior.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("expected none, up, or lean=FREE,SD in degrees, FREE from 0 to 90 and SD above 0")]
+pub struct InvalidPrior;
+
+impl FromStr for Prior {
+    type Err = InvalidPrior;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let lean = |text: &str| {
+            let (free, sd) = text.strip_prefix("lean=")?.split_once(',')?;
+            let (free_deg, sd_deg) = (free.trim().parse().ok()?, sd.trim().parse().ok()?);
+            let is_valid = (0.0..=90.0).contains(&free_deg) && sd_deg > 0.0 && f64::is_finite(sd_deg);
+            is_valid.then_some(Self::Lean { free_deg, sd_deg })
+        };
+        match text {
+            "none" => Ok(Self::None),
+            "up" => Ok(Self::Up),
+            _ => lean(text).ok_or(InvalidPrior),
+        }
+    }
+}
+
+/// The estimators to run on a cloud, and their assumption.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct EstimateSettings {
+    /// The estimators, each once.
+    pub estimators: Vec<Estimator>,
+    /// The assumption about the axis; the paper's estimator makes its own.
+    pub prior: Prior,
 }
 
 /// Runs one estimator.

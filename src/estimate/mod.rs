@@ -18,7 +18,7 @@ mod surface;
 mod view;
 
 pub use directions::half_sphere;
-pub use estimator::{Estimator, Prior, estimate};
+pub use estimator::{EstimateSettings, Estimator, InvalidPrior, Prior, estimate};
 pub use least_squares::{LeastSquares, Linearized, Minimum, Options, minimize};
 use outcome::lead_over;
 pub use outcome::{Alternative, Estimate, EstimateError, Occlusion};

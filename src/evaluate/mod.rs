@@ -7,6 +7,7 @@
 //! times: a resumed run, a run in shards and an unbroken run give the same bytes.
 
 mod checksummed_lines;
+mod estimates;
 mod examine;
 mod file_hashes;
 mod outcome;
@@ -27,6 +28,7 @@ mod tags;
 #[cfg(feature = "window")]
 mod thumbnails;
 
+pub use estimates::{EstimateInRow, estimates_of, surface_of};
 pub use examine::{
     Examination, TruthChoice, collect_references, examine, peduncle_disagreement_deg, reference_of,
 };
@@ -34,7 +36,7 @@ pub use file_hashes::KnownHash;
 pub use outcome::{KnownAxis, Outcome};
 #[cfg(feature = "window")]
 pub use pictures::pictures_of_worst;
-pub use report::{AnalysisReport, SCHEMA, Timings};
+pub use report::{AnalysisReport, SCHEMA, TimedEstimate, Timings};
 #[cfg(feature = "reports")]
 pub use results::{ResultsError, TableError, WorstPicture, csv, parquet, result_files, worst_first};
 pub use row::Row;

@@ -5,6 +5,7 @@ mod helpers;
 
 mod annotating;
 mod annotating_format;
+mod estimating;
 mod geometry;
 mod method_choices;
 mod method_reference;

@@ -112,17 +112,16 @@ impl Outline {
     }
 
     /// Returns the rays through the contour, each with a factor to its row in a fit: `sigma` over the uncertainty of the
-    /// body's edge, all lengths in units of the fruit's size. Grazing surface gives no points, so that the body reaches
-    /// beyond the outermost ones by about S (1 − sin of the last angle), of which the rays allow for half.
-    pub(super) fn rays(&self, size: f64, sigma: f64) -> Vec<(DVec3, f64)> {
+    /// body's edge, in units of the fruit's size. Grazing surface gives no points, so that the body may reach beyond the
+    /// outermost ones by about S (1 − sin of the last angle).
+    pub(super) fn rays(&self, sigma: f64) -> Vec<(DVec3, f64)> {
         /// The uncertainty of an edge at which the surface turns away altogether.
-        const EDGE_SPREAD: f64 = 0.1;
+        const EDGE_SPREAD: f64 = 0.03;
         let ray = |(s, edge): (usize, &Option<Edge>)| {
             let edge = edge.filter(Edge::is_contour)?;
             let hole = 1.0 - (1.0 - edge.cosine * edge.cosine).sqrt();
-            let reach = edge.reach + 0.5 * hole * size / edge.depth;
             let (sin, cos) = ((s as f64 + 0.5) / SECTORS as f64 * TAU - PI).sin_cos();
-            let at = self.middle + reach * DVec2::new(cos, sin);
+            let at = self.middle + edge.reach * DVec2::new(cos, sin);
             let direction = (self.camera * at.extend(1.0)).normalize();
             Some((direction, sigma / (EDGE_SPREAD + 0.5 * hole)))
         };

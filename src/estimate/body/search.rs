@@ -19,7 +19,7 @@ const LAST_STEPS: usize = 12;
 /// Candidates: so many that are at least so many degrees apart, then so many that are farther apart.
 const CANDIDATES: [(usize, f64); 2] = [(4, 8.0), (3, 25.0)];
 /// The weight of the outline's misfit against the evidence, in the search and in the last fit.
-const OUTLINE_WEIGHT: (f64, f64) = (10.0, 20.0);
+const OUTLINE_WEIGHT: (f64, f64) = (7.0, 14.0);
 
 /// A body that was fitted, with its cost.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,9 +65,7 @@ pub fn fit_bodies(surface: &Surface, prior: Prior, watch: &dyn Watch) -> Result<
         prior,
         outline: outline.as_ref(),
     };
-    let rays = outline
-        .as_ref()
-        .map_or(Vec::new(), |o| o.rays(surface.size_cm, SIGMA));
+    let rays = outline.as_ref().map_or(Vec::new(), |o| o.rays(SIGMA));
     let few_rays = rays.iter().copied().step_by(2).collect();
     let coarse = observations(&surface.coarse, few_rays);
     let fine = observations(&surface.fine, rays);
