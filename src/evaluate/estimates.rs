@@ -55,7 +55,7 @@ pub struct EstimateInRow {
     pub confidence: Option<f64>,
     /// Whether the axis should not be relied on.
     pub ambiguous: bool,
-    /// The share of the fruit's outline that is seen, 0 to 1.
+    /// The share of the fruit's cross-section that is seen, 0 to 1.
     pub seen_share: Option<f64>,
     /// Its class.
     pub occlusion: Option<Occlusion>,
