@@ -113,6 +113,14 @@ impl Mesh {
             .extend(other.triangles.iter().map(|t| t.map(|i| i + offset)));
     }
 
+    /// Moves each corner by a function of its place, and computes the normals anew.
+    pub(super) fn deformed(mut self, place: impl Fn(DVec3) -> DVec3) -> Self {
+        for p in &mut self.positions {
+            *p = place(*p);
+        }
+        self.finish()
+    }
+
     /// Moves the surface rigidly.
     pub(super) fn moved(mut self, rotation: glam::DMat3, translation: DVec3) -> Self {
         for p in &mut self.positions {

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::{EllipsoidSettings, PepperSettings};
+use super::{EllipsoidSettings, FruitSettings, PepperSettings};
 use crate::geometry::{Cloud, Unit};
 
 /// A cloud and the truth about it.
@@ -60,12 +60,14 @@ pub enum Settings {
     Ellipsoid(EllipsoidSettings),
     /// A pepper before a depth camera.
     Pepper(Box<PepperSettings>),
+    /// A fruit of another kind before a depth camera.
+    Fruit(Box<FruitSettings>),
 }
 
 /// The truth about a simulated cloud: the content of a `.truth.json` file.
 ///
 /// Lengths are in [`Truth::unit`], the cloud's own, except in the settings, whose names say `_cm`.
-/// In JSON the settings are two fields: `kind` (`"ellipsoid"` or `"pepper"`) and `settings`.
+/// In JSON the settings are two fields: `kind` (`"ellipsoid"`, `"pepper"` or `"fruit"`) and `settings`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
     /// [`Truth::SCHEMA`].

@@ -1,6 +1,8 @@
 //! `axiscope simulate`: clouds with a known axis, with the truth about each in a file beside it.
 
+mod fruit;
 mod pepper;
+mod scene;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -8,12 +10,15 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use axiscope::geometry::Unit;
 use axiscope::ply::{self, Encoding, WriteOptions};
-use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, seeds};
+use axiscope::simulate::{
+    EllipsoidSettings, FruitSettings, PepperSettings, Settings, SimulateError, Simulated, Truth, seeds,
+};
 use clap::{Args, Subcommand};
 use glam::DVec3;
 
 use super::options::{Depths, depths, number, pair, position};
 use super::{progress, usage_error};
+use fruit::Fruit;
 use pepper::Pepper;
 
 #[derive(Debug, Args)]
@@ -28,6 +33,8 @@ enum Shape {
     Ellipsoid(Ellipsoid),
     /// A lobed, tapered pepper with a peduncle, as a depth camera sees it
     Pepper(Box<Pepper>),
+    /// A pear, eggplant, cucumber, tomato, apple or ball, as a depth camera sees it
+    Fruit(Box<Fruit>),
 }
 
 /// The number of the clouds, and their files.
@@ -35,7 +42,7 @@ enum Shape {
 #[command(next_help_heading = "Output")]
 struct Output {
     /// The PLY file to write, or a folder for several; the truth goes beside it as NAME.truth.json
-    /// [default: pepper.ply or ellipsoid.ply; for several, the folder peppers or ellipsoids]
+    /// [default: pepper.ply, ellipsoid.ply or the kind's name; for several, the folder peppers, ellipsoids or the like]
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
     /// Number of clouds, each with its own seed, which follows from --seed
@@ -77,6 +84,7 @@ pub(super) fn run(args: &Simulate) -> anyhow::Result<()> {
     match &args.shape {
         Shape::Ellipsoid(args) => ellipsoids(args),
         Shape::Pepper(args) => peppers(args),
+        Shape::Fruit(args) => fruits(args),
     }
 }
 
@@ -125,13 +133,62 @@ fn peppers(args: &Pepper) -> anyhow::Result<()> {
         (format!("pepper_{i:03}"), settings)
     });
     write_all(&args.output, "pepper", &jobs.collect::<Vec<_>>(), |settings| {
-        let simulated = settings.simulate()?;
-        Ok(if args.without_peduncle {
-            simulated.without_peduncle()
-        } else {
-            simulated
-        })
+        Ok(with_peduncle(settings.simulate()?, !args.without_peduncle))
     })
+}
+
+fn fruits(args: &Fruit) -> anyhow::Result<()> {
+    let settings = args.settings()?;
+    let kind = settings.kind.name();
+    let seeds = seeds(args.output.seed, args.output.count as usize);
+    let jobs = seeds.into_iter().enumerate().map(|(i, seed)| {
+        let settings = FruitSettings {
+            seed,
+            ..settings.clone()
+        };
+        (format!("{kind}_{i:03}"), settings)
+    });
+    write_all(&args.output, kind, &jobs.collect::<Vec<_>>(), |settings| {
+        Ok(with_peduncle(settings.simulate()?, !args.without_peduncle))
+    })
+}
+
+fn with_peduncle(simulated: Simulated, is_kept: bool) -> Simulated {
+    if is_kept {
+        simulated
+    } else {
+        simulated.without_peduncle()
+    }
+}
+
+fn set<T: Copy>(field: &mut T, option: Option<T>) {
+    if let Some(value) = option {
+        *field = value;
+    }
+}
+
+/// Reads the settings of a truth file, or of a file that holds nothing else; `of_kind` picks those of the kind from
+/// a truth.
+fn read_settings<T: serde::de::DeserializeOwned>(
+    path: &Path,
+    kind: &str,
+    of_kind: impl Fn(Settings) -> Option<T>,
+) -> anyhow::Result<T> {
+    let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    if let Ok(truth) = serde_json::from_str::<Truth>(&text) {
+        let other = match &truth.settings {
+            Settings::Ellipsoid(_) => "an ellipsoid's",
+            Settings::Pepper(_) => "a pepper's",
+            Settings::Fruit(_) => "a fruit's of another kind",
+        };
+        return of_kind(truth.settings).with_context(|| {
+            format!(
+                "{}: these are {other} settings, not those of a {kind}",
+                path.display()
+            )
+        });
+    }
+    serde_json::from_str(&text).with_context(|| format!("{}: no settings of a {kind}", path.display()))
 }
 
 /// Simulates each job and writes it, one after the other. The same seed gives the same bytes.
