@@ -26,5 +26,5 @@ pub use plane::Plane;
 pub use point_set::PointSet;
 pub use spread::Spread;
 pub use unit::Unit;
-pub(crate) use voxels::near_one_another;
+pub(crate) use voxels::{by_cell, near_one_another};
 pub use voxels::{voxel_edge_for, voxel_grid};

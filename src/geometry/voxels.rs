@@ -62,7 +62,7 @@ const BITS: u32 = 21;
 
 /// The points' indices, cell by cell and ascending in each, and the start of each cell among them, with
 /// the end of the last.
-fn by_cell(points: &[DVec3], edge: f64) -> (Vec<usize>, Vec<usize>) {
+pub(crate) fn by_cell(points: &[DVec3], edge: f64) -> (Vec<usize>, Vec<usize>) {
     let (mut low, mut high) = (I64Vec3::MAX, I64Vec3::MIN);
     for &p in points {
         let cell = cell(p, edge);
