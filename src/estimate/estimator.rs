@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Estimate, EstimateError, Surface, paper};
+use super::{Estimate, EstimateError, Surface, paper, plane, revolution, superquadric};
 use crate::method::Analysis;
 use crate::parallel::Cancelled;
 use crate::parallel::Watch;
@@ -15,16 +15,25 @@ use crate::text::sentence;
 pub enum Estimator {
     /// The paper's: the best plane of the grid, and Eq. 16.
     Paper,
+    /// The paper's plane refined without the grid, and Eq. 16.
+    Plane,
+    /// A tapered superquadric.
+    Superquadric,
+    /// A surface of revolution with a free profile.
+    Revolution,
 }
 
 impl Estimator {
     /// All estimators, in the order of reports.
-    pub const ALL: &[Self] = &[Self::Paper];
+    pub const ALL: &[Self] = &[Self::Paper, Self::Plane, Self::Superquadric, Self::Revolution];
 
     /// Returns the name that the command line and reports use.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
+            Self::Plane => "plane",
+            Self::Superquadric => "superquadric",
+            Self::Revolution => "revolution",
         }
     }
 }
@@ -62,12 +71,15 @@ pub fn estimate(
     prior: Prior,
     watch: &dyn Watch,
 ) -> Result<Estimate, Cancelled> {
-    let _fitted = |run: fn(&Surface, Prior, &dyn Watch) -> Result<Estimate, EstimateError>| {
+    let fitted = |run: fn(&Surface, Prior, &dyn Watch) -> Result<Estimate, EstimateError>| {
         run(surface.as_ref().map_err(|error| *error)?, prior, watch)
     };
     let result = match estimator {
         Estimator::Paper => Ok(paper::estimate(analysis)),
-        // The others: Estimator::Plane => fitted(plane::estimate),
+        Estimator::Plane => (surface.as_ref().map_err(|error| *error))
+            .and_then(|surface| plane::estimate(surface, analysis, watch)),
+        Estimator::Superquadric => fitted(superquadric::estimate),
+        Estimator::Revolution => fitted(revolution::estimate),
     };
     match result {
         Err(EstimateError::Cancelled(cancelled)) => Err(cancelled),

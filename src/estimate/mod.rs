@@ -9,10 +9,15 @@
 
 mod directions;
 mod estimator;
+mod fits;
 mod least_squares;
 mod outcome;
 mod paper;
+mod plane;
+mod revolution;
+mod robust;
 mod sample;
+mod superquadric;
 mod surface;
 mod view;
 
