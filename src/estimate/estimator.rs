@@ -1,8 +1,10 @@
 //! The estimators, and the one call that runs any of them.
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{Estimate, EstimateError, Surface, paper, plane, revolution, superquadric};
+use super::{Estimate, EstimateError, Surface, body, paper, plane, revolution, superquadric};
+use crate::geometry::angle_between_lines_rad;
 use crate::method::Analysis;
 use crate::parallel::Cancelled;
 use crate::parallel::Watch;
@@ -21,11 +23,19 @@ pub enum Estimator {
     Superquadric,
     /// A surface of revolution with a free profile.
     Revolution,
+    /// A nearly rotational body of unknown shape: spherical harmonics about the axis.
+    Body,
 }
 
 impl Estimator {
     /// All estimators, in the order of reports.
-    pub const ALL: &[Self] = &[Self::Paper, Self::Plane, Self::Superquadric, Self::Revolution];
+    pub const ALL: &[Self] = &[
+        Self::Paper,
+        Self::Plane,
+        Self::Superquadric,
+        Self::Revolution,
+        Self::Body,
+    ];
 
     /// Returns the name that the command line and reports use.
     pub fn name(self) -> &'static str {
@@ -34,6 +44,7 @@ impl Estimator {
             Self::Plane => "plane",
             Self::Superquadric => "superquadric",
             Self::Revolution => "revolution",
+            Self::Body => "body",
         }
     }
 }
@@ -54,6 +65,26 @@ pub enum Prior {
     },
     /// The axis is about upright in the image, where y points down: fruits hang.
     Up,
+}
+
+impl Prior {
+    /// Returns the cost of an axis through a center, relative to the viewpoint, by this assumption: the negative logarithm
+    /// of its probability.
+    pub(super) fn cost(self, axis: DVec3, center: DVec3) -> f64 {
+        match self {
+            Self::None => 0.0,
+            Self::Lean { free_deg, sd_deg } => {
+                let lean_deg = 90.0 - angle_between_lines_rad(axis, center).to_degrees();
+                0.5 * ((lean_deg - free_deg).max(0.0) / sd_deg).powi(2)
+            }
+            Self::Up => {
+                /// The standard deviation of fruits' axes from upright, in degrees.
+                const SPREAD_DEG: f64 = 25.0;
+                let from_up_deg = angle_between_lines_rad(axis, DVec3::Y).to_degrees();
+                0.5 * (from_up_deg / SPREAD_DEG).powi(2)
+            }
+        }
+    }
 }
 
 /// Runs one estimator.
@@ -80,6 +111,7 @@ pub fn estimate(
             .and_then(|surface| plane::estimate(surface, analysis, watch)),
         Estimator::Superquadric => fitted(superquadric::estimate),
         Estimator::Revolution => fitted(revolution::estimate),
+        Estimator::Body => fitted(body::estimate),
     };
     match result {
         Err(EstimateError::Cancelled(cancelled)) => Err(cancelled),

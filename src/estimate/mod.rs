@@ -7,6 +7,7 @@
 //! Lengths within this room are in centimeters, and positions are relative to the viewpoint: see [`Surface`]. An
 //! [`Estimate`] is in the file's unit and frame again.
 
+pub mod body;
 mod directions;
 mod estimator;
 mod fits;
@@ -17,6 +18,7 @@ mod plane;
 mod revolution;
 mod robust;
 mod sample;
+mod search;
 mod superquadric;
 mod surface;
 mod view;

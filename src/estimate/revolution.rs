@@ -21,18 +21,13 @@
 use glam::DVec3;
 use nalgebra::{DMatrix, DVector};
 
-use super::fits::{Fit, distinct, estimate_of};
-use super::robust::Huber;
+use super::robust::{Huber, rms};
+use super::search::{self, Family, Fitted};
 use super::{
-    Estimate, EstimateError, Estimator, LeastSquares, Linearized, Options, Prior, Sample, Surface,
-    half_sphere, minimize,
+    Estimate, EstimateError, Estimator, LeastSquares, Linearized, Options, Prior, Sample, Surface, minimize,
 };
-use crate::parallel::{Watch, map_pieces};
+use crate::parallel::Watch;
 
-/// Directions at which searches start.
-const STARTS: usize = 40;
-/// Axes of the search that are fitted to the fine sample.
-const REFINED: usize = 6;
 /// The terms of the profile in the search and in the last fit.
 const TERMS: (usize, usize) = (6, 10);
 const SEARCH: Options = Options {
@@ -47,8 +42,8 @@ const REFINE: Options = Options {
 const CENTER_SD: f64 = 0.6;
 /// The least of √(4ρ² + f′²): near a pole that the profile does not meet the distance is not of first order.
 const LEAST_SLOPE: f64 = 0.6;
-/// A lead below this may be chance.
-const LEAST_LEAD: f64 = 3.0;
+/// A waist whose radius is below this share of that on either side parts two fruits.
+const WAIST: f64 = 0.6;
 
 /// Fits a surface of revolution from many starts.
 ///
@@ -56,31 +51,64 @@ const LEAST_LEAD: f64 = 3.0;
 /// Returns an error if no start leads to a fit, or the watch cancels the work.
 pub(super) fn estimate(
     surface: &Surface,
-    _prior: Prior,
+    prior: Prior,
     watch: &dyn Watch,
 ) -> Result<Estimate, EstimateError> {
-    let starts = half_sphere(STARTS);
-    let searches = Problem::new(surface, &surface.coarse, TERMS.0);
-    let found = map_pieces(starts.len(), 1, watch, |range| {
-        searches.fit(searches.start(starts[range.start], surface.center), SEARCH, watch)
-    })?;
-    let mut fits = Vec::new();
-    for fit in found {
-        fits.extend(fit?);
+    let family = Revolutions {
+        coarse: Problem::new(surface, &surface.coarse, TERMS.0),
+        fine: Problem::new(surface, &surface.fine, TERMS.1),
+    };
+    let starts = search::starts();
+    let (mut estimate, best) =
+        search::estimate(Estimator::Revolution, &family, &starts, surface, prior, watch)?;
+    if family.fine.has_waist(&best.body) {
+        estimate.ambiguous = true;
+        let warning = "The profile has a deep waist: the points may be of two fruits.";
+        estimate.warnings.push(warning.into());
     }
-    let fits = distinct(fits, REFINED, |(state, cost)| state.fit(*cost));
-    let refines = Problem::new(surface, &surface.fine, TERMS.1);
-    let refined = map_pieces(fits.len(), 1, watch, |range| {
-        let (state, _) = &fits[range.start];
-        refines.fit(refines.start(state.axis, state.center), REFINE, watch)
-    })?;
-    let mut fits = Vec::new();
-    for fit in refined {
-        fits.extend(fit?.map(|(state, cost)| state.fit(cost)));
-    }
-    let mut estimate = estimate_of(Estimator::Revolution, surface, fits)?;
-    estimate.ambiguous = estimate.lead.is_some_and(|lead| lead < LEAST_LEAD);
     Ok(estimate)
+}
+
+struct Revolutions<'a> {
+    coarse: Problem<'a>,
+    fine: Problem<'a>,
+}
+
+impl Family for Revolutions<'_> {
+    type Body = State;
+
+    fn search(&self, axis: DVec3, watch: &dyn Watch) -> Result<Option<Fitted<State>>, EstimateError> {
+        let start = self.coarse.start(axis, self.coarse.first_center);
+        self.coarse.fit(start, SEARCH, watch)
+    }
+
+    fn refine(&self, start: &State, watch: &dyn Watch) -> Result<Option<Fitted<State>>, EstimateError> {
+        let start = self.fine.start(start.axis, start.center);
+        self.fine.fit(start, REFINE, watch)
+    }
+
+    fn axis(&self, body: &State) -> (DVec3, DVec3) {
+        (body.axis, body.center)
+    }
+
+    fn surface(&self, body: &State) -> Vec<DVec3> {
+        const RINGS: usize = 40;
+        const AROUND: usize = 56;
+        let [low, high] = body.ends();
+        let (e1, e2) = body.axis.any_orthonormal_pair();
+        let mut points = Vec::with_capacity(RINGS * AROUND);
+        for ring in 0..RINGS {
+            let turn = (ring as f64 + 0.5) / RINGS as f64 * std::f64::consts::PI;
+            let t = f64::midpoint(low, high) - 0.5 * (high - low) * turn.cos();
+            let radius = body.profile(t).0.max(0.0).sqrt();
+            for step in 0..AROUND {
+                let (sin, cos) = (step as f64 / AROUND as f64 * std::f64::consts::TAU).sin_cos();
+                let offset = t * body.axis + radius * (cos * e1 + sin * e2);
+                points.push(body.center + self.fine.size * offset);
+            }
+        }
+        points
+    }
 }
 
 /// A pose and a profile.
@@ -94,12 +122,33 @@ struct State {
 }
 
 impl State {
-    fn fit(&self, cost: f64) -> Fit {
-        Fit {
-            direction: self.axis,
-            center_cm: self.center,
-            cost,
-        }
+    /// f and its derivative at t. Beyond the range of the points, which moves with the pose, polynomials grow without
+    /// bound.
+    fn profile(&self, t: f64) -> (f64, f64) {
+        let (basis, slopes) = legendre(self.argument(t), self.beta.len());
+        let sum = |values: &[f64]| self.beta.iter().zip(values).map(|(b, v)| b * v).sum::<f64>();
+        (sum(&basis), sum(&slopes) / self.reach)
+    }
+
+    fn argument(&self, t: f64) -> f64 {
+        (t / self.reach).clamp(-1.2, 1.2)
+    }
+
+    /// Where the body ends along the axis: where f vanishes on either side of its largest value, or the series does.
+    fn ends(&self) -> [f64; 2] {
+        const STEPS: i32 = 60;
+        let at = |i: i32| f64::from(i) / f64::from(STEPS) * 1.2 * self.reach;
+        let f = |i: i32| self.profile(at(i)).0;
+        let widest = (-STEPS..=STEPS).max_by(|&i, &j| f(i).total_cmp(&f(j)));
+        let widest = widest.unwrap_or(0);
+        let beyond = |step: i32| {
+            let mut i = widest;
+            while (i + step).abs() <= STEPS && f(i + step) > 0.0 {
+                i += step;
+            }
+            at(i)
+        };
+        [beyond(-1), beyond(1)]
     }
 }
 
@@ -117,8 +166,8 @@ struct Row {
     across: DVec3,
     t: f64,
     basis: [f64; MOST_TERMS],
-    /// f and its derivative by t.
-    profile: (f64, f64),
+    /// The derivative of f.
+    slope: f64,
     /// 1 / √(4ρ² + f′²).
     scale: f64,
     residual: f64,
@@ -167,7 +216,7 @@ impl<'a> Problem<'a> {
         let sd = match k {
             0 => 1.0,
             1 | 2 => 0.8 * reach.max(0.7),
-            _ => 0.6 * (3.0 / k as f64).powi(2),
+            _ => 0.3 * (3.0 / k as f64).powi(2),
         };
         1.0 / (sd * sd)
     }
@@ -176,9 +225,7 @@ impl<'a> Problem<'a> {
         let q = (point - state.center) / self.size;
         let t = q.dot(state.axis);
         let across = q - t * state.axis;
-        // Beyond the range of the points, which moves with the pose, polynomials grow without bound.
-        let x = (t / state.reach).clamp(-1.2, 1.2);
-        let (basis, slopes) = legendre(x, self.terms);
+        let (basis, slopes) = legendre(state.argument(t), self.terms);
         let (mut f, mut slope) = (0.0, 0.0);
         for k in 0..self.terms {
             f += state.beta[k] * basis[k];
@@ -191,7 +238,7 @@ impl<'a> Problem<'a> {
             across,
             t,
             basis,
-            profile: (f, slope),
+            slope,
             scale,
             residual: (squared - f) * scale,
         }
@@ -232,9 +279,33 @@ impl<'a> Problem<'a> {
         start: State,
         options: Options,
         watch: &dyn Watch,
-    ) -> Result<Option<(State, f64)>, EstimateError> {
+    ) -> Result<Option<Fitted<State>>, EstimateError> {
         let minimum = minimize(self, start, options, watch)?;
-        Ok(minimum.map(|m| (m.state, m.linearized.cost)))
+        Ok(minimum.map(|minimum| Fitted {
+            rms: rms(
+                &self.loss,
+                self.points.iter().map(|&p| self.row(&minimum.state, p).residual),
+            ),
+            cost: minimum.linearized.cost,
+            body: minimum.state,
+        }))
+    }
+
+    /// Whether the profile narrows deeply somewhere between the points' ends.
+    fn has_waist(&self, state: &State) -> bool {
+        const STEPS: usize = 40;
+        let mut along: Vec<f64> = self.points.iter().map(|&p| self.row(state, p).t).collect();
+        along.sort_unstable_by(f64::total_cmp);
+        let Some((low, high)) = along.get(along.len() / 20).zip(along.get(along.len() * 19 / 20)) else {
+            return false;
+        };
+        let at = |i: usize| low + (high - low) * i as f64 / STEPS as f64;
+        let squares: Vec<f64> = (0..=STEPS).map(|i| state.profile(at(i)).0).collect();
+        let largest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
+        (1..STEPS).any(|i| {
+            let sides = largest(&squares[..i]).min(largest(&squares[i + 1..]));
+            squares[i] < WAIST * WAIST * sides
+        })
     }
 }
 
@@ -261,7 +332,7 @@ impl LeastSquares for Problem<'_> {
         let mut derivatives = vec![0.0; POSE + self.terms];
         for &point in self.points {
             let row = self.row(state, point);
-            let turn = -row.scale * (2.0 * row.t + row.profile.1);
+            let turn = -row.scale * (2.0 * row.t + row.slope);
             let shift = -2.0 * row.scale;
             derivatives[0] = turn * row.q.dot(e1);
             derivatives[1] = turn * row.q.dot(e2);

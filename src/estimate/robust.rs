@@ -43,3 +43,14 @@ impl Huber {
         self.temper / (self.sigma * self.sigma) * if z <= THRESHOLD { 1.0 } else { THRESHOLD / z }
     }
 }
+
+/// The root mean square of residuals in iterated least squares, weighted as the last iteration does.
+pub(super) fn rms(loss: &Huber, residuals: impl Iterator<Item = f64>) -> f64 {
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for residual in residuals {
+        let weight = loss.weight(residual);
+        sum += weight * residual * residual;
+        weights += weight;
+    }
+    (sum / f64::max(weights, f64::MIN_POSITIVE)).sqrt()
+}

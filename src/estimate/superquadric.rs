@@ -18,18 +18,13 @@
 use glam::{DMat3, DVec3};
 use nalgebra::DVector;
 
-use super::fits::{Fit, distinct, estimate_of};
-use super::robust::Huber;
+use super::robust::{Huber, rms};
+use super::search::{self, Family, Fitted};
 use super::{
-    Estimate, EstimateError, Estimator, LeastSquares, Linearized, Options, Prior, Sample, Surface,
-    half_sphere, minimize,
+    Estimate, EstimateError, Estimator, LeastSquares, Linearized, Options, Prior, Sample, Surface, minimize,
 };
-use crate::parallel::{Watch, map_pieces};
+use crate::parallel::Watch;
 
-/// Directions of z at which searches start.
-const STARTS: usize = 40;
-/// Bodies of the search that are fitted to the fine sample.
-const REFINED: usize = 6;
 const SEARCH: Options = Options {
     steps: 10,
     least_decrease: 0.05,
@@ -40,8 +35,8 @@ const REFINE: Options = Options {
 };
 /// The least cosine between ray and normal that a residual is multiplied with.
 const LEAST_COSINE: f64 = 0.15;
-/// A lead below this may be chance.
-const LEAST_LEAD: f64 = 3.0;
+/// The least factor of the taper, which would vanish and turn over beyond the body's end.
+const LEAST_WIDTH: f64 = 0.1;
 
 /// Fits a superquadric from many starts.
 ///
@@ -49,30 +44,58 @@ const LEAST_LEAD: f64 = 3.0;
 /// Returns an error if no start leads to a fit, or the watch cancels the work.
 pub(super) fn estimate(
     surface: &Surface,
-    _prior: Prior,
+    prior: Prior,
     watch: &dyn Watch,
 ) -> Result<Estimate, EstimateError> {
-    let starts = half_sphere(STARTS);
-    let searches = Problem::new(surface, &surface.coarse);
-    let found = map_pieces(starts.len(), 1, watch, |range| {
-        searches.fit(searches.start(starts[range.start]), SEARCH, watch)
-    })?;
-    let mut fits = Vec::new();
-    for fit in found {
-        fits.extend(fit?);
-    }
-    let fits = distinct(fits, REFINED, |(body, cost)| body.fit(*cost));
-    let refines = Problem::new(surface, &surface.fine);
-    let refined = map_pieces(fits.len(), 1, watch, |range| {
-        refines.fit(fits[range.start].0.clone(), REFINE, watch)
-    })?;
-    let mut fits = Vec::new();
-    for fit in refined {
-        fits.extend(fit?.map(|(body, cost)| body.fit(cost)));
-    }
-    let mut estimate = estimate_of(Estimator::Superquadric, surface, fits)?;
-    estimate.ambiguous = estimate.lead.is_some_and(|lead| lead < LEAST_LEAD);
+    let family = Superquadrics {
+        coarse: Problem::new(surface, &surface.coarse),
+        fine: Problem::new(surface, &surface.fine),
+    };
+    let starts = search::starts();
+    let (estimate, _) = search::estimate(Estimator::Superquadric, &family, &starts, surface, prior, watch)?;
     Ok(estimate)
+}
+
+struct Superquadrics<'a> {
+    coarse: Problem<'a>,
+    fine: Problem<'a>,
+}
+
+impl Family for Superquadrics<'_> {
+    type Body = Body;
+
+    fn search(&self, axis: DVec3, watch: &dyn Watch) -> Result<Option<Fitted<Body>>, EstimateError> {
+        self.coarse.fit(self.coarse.start(axis), SEARCH, watch)
+    }
+
+    fn refine(&self, start: &Body, watch: &dyn Watch) -> Result<Option<Fitted<Body>>, EstimateError> {
+        self.fine.fit(start.clone(), REFINE, watch)
+    }
+
+    fn axis(&self, body: &Body) -> (DVec3, DVec3) {
+        (body.rotation.z_axis.normalize(), body.center)
+    }
+
+    fn surface(&self, body: &Body) -> Vec<DVec3> {
+        const RINGS: usize = 40;
+        const AROUND: usize = 56;
+        let mut untapered = body.shape;
+        let taper = std::mem::take(&mut untapered[TAPER]);
+        let half_axes = DVec3::new(body.shape[0].exp(), body.shape[1].exp(), body.shape[2].exp());
+        let mut points = Vec::with_capacity(RINGS * AROUND);
+        for ring in 0..RINGS {
+            let (across, along) = ((ring as f64 + 0.5) / RINGS as f64 * std::f64::consts::PI).sin_cos();
+            for step in 0..AROUND {
+                let (y, x) = (step as f64 / AROUND as f64 * std::f64::consts::TAU).sin_cos();
+                let inside = DVec3::new(across * x, across * y, along) * half_axes;
+                let on = inside * radial(&untapered, inside).log.exp();
+                let width = (1.0 + taper * on.z / half_axes.z).max(LEAST_WIDTH);
+                let on = DVec3::new(on.x * width, on.y * width, on.z);
+                points.push(body.center + body.rotation * on * self.fine.size);
+            }
+        }
+        points
+    }
 }
 
 /// The indices of the parameters in a step: turn about x, y, z of the body; center along x, y, z; then the shape.
@@ -100,16 +123,6 @@ struct Body {
     shape: Shape,
 }
 
-impl Body {
-    fn fit(&self, cost: f64) -> Fit {
-        Fit {
-            direction: self.rotation.z_axis.normalize(),
-            center_cm: self.center,
-            cost,
-        }
-    }
-}
-
 /// The logarithm of h at a point and its derivatives by the point and by the shape.
 struct Radial {
     log: f64,
@@ -126,7 +139,7 @@ fn radial(shape: &Shape, point: DVec3) -> Radial {
     let (p, q) = (2.0 / e2, 2.0 / e1);
     let size = a3.exp();
     let along = point.z / size;
-    let width = (1.0 + taper * along).max(0.1);
+    let width = (1.0 + taper * along).max(LEAST_WIDTH);
     let log_x = (point.x.abs() / width).ln() - a1;
     let log_y = (point.y.abs() / width).ln() - a2;
     let log_z = along.abs().ln();
@@ -224,7 +237,7 @@ impl<'a> Problem<'a> {
         start: Body,
         options: Options,
         watch: &dyn Watch,
-    ) -> Result<Option<(Body, f64)>, EstimateError> {
+    ) -> Result<Option<Fitted<Body>>, EstimateError> {
         let Some(minimum) = minimize(self, start, options, watch)? else {
             return Ok(None);
         };
@@ -232,7 +245,13 @@ impl<'a> Problem<'a> {
         let factor = minimum.linearized.information.cholesky();
         Ok(factor.map(|factor| {
             let half_log_det: f64 = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
-            (minimum.state, minimum.linearized.cost + half_log_det)
+            let body = minimum.state;
+            let residuals = (0..self.sample.len()).map(|i| self.residual(&body, i, None));
+            Fitted {
+                rms: rms(&self.loss, residuals),
+                cost: minimum.linearized.cost + half_log_det,
+                body,
+            }
         }))
     }
 
