@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use axiscope::simulate::{FruitColor, FruitKind, FruitSettings, Settings};
 use clap::Args;
 
-use super::scene::SceneOptions;
+use super::surroundings::SurroundingsOptions;
 use super::{Output, read_settings, set};
 use crate::cli::usage_error;
 
@@ -56,7 +56,7 @@ pub(super) struct Fruit {
     #[arg(long, value_enum, help_heading = "Fruit")]
     color: Option<FruitColor>,
     #[command(flatten)]
-    scene: SceneOptions,
+    surroundings: SurroundingsOptions,
 }
 
 impl Fruit {
@@ -81,7 +81,7 @@ impl Fruit {
         set(&mut s.bend_deg, self.bend_deg);
         s.asymmetry = self.asymmetry.or(s.asymmetry);
         s.color = self.color.or(s.color);
-        self.scene.apply(&mut s.scene);
+        self.surroundings.apply(&mut s.surroundings)?;
         Ok(s)
     }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use axiscope::simulate::{FruitColor, PepperSettings, Settings};
 use clap::Args;
 
-use super::scene::SceneOptions;
+use super::surroundings::SurroundingsOptions;
 use super::{Output, read_settings, set};
 
 /// The settings of a pepper; the seed draws those that are not given.
@@ -46,7 +46,7 @@ pub(super) struct Pepper {
     #[arg(long, value_enum, help_heading = "Fruit")]
     color: Option<FruitColor>,
     #[command(flatten)]
-    scene: SceneOptions,
+    surroundings: SurroundingsOptions,
 }
 
 impl Pepper {
@@ -67,8 +67,8 @@ impl Pepper {
         s.dimple_cm = self.dimple_cm.or(s.dimple_cm);
         s.color = self.color.or(s.color);
         set(&mut s.asymmetry, self.asymmetry);
-        let mut scene = s.scene();
-        self.scene.apply(&mut scene);
-        Ok(s.with_scene(scene))
+        let mut surroundings = s.surroundings();
+        self.surroundings.apply(&mut surroundings)?;
+        Ok(s.with_surroundings(surroundings))
     }
 }

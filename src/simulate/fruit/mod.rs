@@ -9,7 +9,7 @@ use rand::{Rng, RngExt};
 use self::bend::Bend;
 use super::error::within;
 use super::random::{Stream, set_or_draw, stream};
-use super::scene::Reach;
+use super::surroundings::Reach;
 use super::shape::{Asymmetry, Body, Form, Paint};
 use super::{Settings, SimulateError, Simulated, Truth};
 
@@ -37,14 +37,14 @@ impl FruitSettings {
         let allowed = "at most 1.6 of the radius that the fruit is bent by";
         within("width_cm", body.half_width_cm * 2.0, (0.0, thickest), allowed)?;
 
-        let has_peduncle = self.kind != FruitKind::Ball || self.scene.peduncle_length_cm.is_some();
+        let has_peduncle = self.kind != FruitKind::Ball || self.surroundings.peduncle_length_cm.is_some();
         let ranges = [measures.peduncle_length_cm, measures.peduncle_width_cm];
-        let peduncle = drawn.scene.draw_peduncle(body.calyx_cm(), ranges, &mut shape);
+        let peduncle = drawn.surroundings.draw_peduncle(body.calyx_cm(), ranges, &mut shape);
         let reach = Reach {
             ball_cm: body.ball_cm() + bend.map_or(0.0, |bend| bend.sagitta_cm()),
             margin: 1.0 + 2.0 * drawn.asymmetry.unwrap_or(0.0),
         };
-        let placement = drawn.scene.place(self.seed, reach, &peduncle)?;
+        let placement = drawn.surroundings.place(self.seed, reach, &peduncle)?;
         let mut colors = stream(self.seed, Stream::Color);
         let drawn_color = measures.colors[colors.random_range(0..measures.colors.len())];
         let color = self.color.unwrap_or(drawn_color);
@@ -55,28 +55,24 @@ impl FruitSettings {
         if has_peduncle {
             mesh.append(&peduncle.mesh(&paint));
         } else {
-            drawn.scene.peduncle_length_cm = None;
+            drawn.surroundings.peduncle_length_cm = None;
         }
         if let Some(bend) = bend {
             mesh = mesh.deformed(|p| bend.bent(p));
         }
         let mesh = mesh.moved(placement.camera_from_fruit, placement.center_cm);
-        let (cloud, hidden_by_leaf) = drawn.scene.measure(mesh, self.seed, &paint)?;
-
         let half_length_cm = bend.map_or(body.half_height_cm, |bend| bend.half_chord_cm());
         let is_exact = drawn.asymmetry == Some(0.0) && body.lobe_depth == 0.0 && bend.is_none();
-        let note = drawn.note(is_exact);
+        let note = drawn.note(is_exact).map(Into::into);
+        let surroundings = drawn.surroundings.clone();
         let truth = placement.truth(half_length_cm, self.seed, Settings::Fruit(Box::new(drawn)));
         let axis = truth.axis.direction;
-        Ok(Simulated {
-            cloud,
-            truth: Truth {
-                revolution_axis: (is_exact && self.kind != FruitKind::Ball).then_some(axis),
-                note: note.map(Into::into),
-                hidden_by_leaf,
-                ..truth
-            },
-        })
+        let truth = Truth {
+            revolution_axis: (is_exact && self.kind != FruitKind::Ball).then_some(axis),
+            note,
+            ..truth
+        };
+        surroundings.measure(mesh, &paint, truth)
     }
 
     /// A caveat about errors against the axis.

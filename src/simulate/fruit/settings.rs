@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::FruitKind;
 use crate::simulate::error::{set_within, within};
-use crate::simulate::{FruitColor, Scene, SimulateError};
+use crate::simulate::{FruitColor, SimulateError, Surroundings};
 
 /// A fruit of a kind and its surroundings.
 ///
@@ -40,9 +40,9 @@ pub struct FruitSettings {
     pub asymmetry: Option<f64>,
     /// The fruit's color.
     pub color: Option<FruitColor>,
-    /// Peduncle, pose, leaf and camera. Without a length that is set, a ball has no peduncle.
+    /// Peduncle, pose, leaf, camera and views. Without a length that is set, a ball has no peduncle.
     #[serde(default)]
-    pub scene: Scene,
+    pub surroundings: Surroundings,
 }
 
 impl FruitSettings {
@@ -61,7 +61,7 @@ impl FruitSettings {
             bend_deg: 0.0,
             asymmetry: None,
             color: None,
-            scene: Scene::default(),
+            surroundings: Surroundings::default(),
         }
     }
 
@@ -76,6 +76,6 @@ impl FruitSettings {
         set_within("rib_depth", self.rib_depth, (0.0, 0.4), "0 to 0.4")?;
         within("bend_deg", self.bend_deg, (0.0, 60.0), "0 to 60")?;
         set_within("asymmetry", self.asymmetry, (0.0, 0.2), "0 to 0.2")?;
-        self.scene.check()
+        self.surroundings.check()
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::simulate::error::{set_within, within};
-use crate::simulate::{DepthCamera, FruitColor, Scene, SimulateError};
+use crate::simulate::{DepthCamera, FruitColor, ScanSettings, SimulateError, Surroundings};
 
 /// A pepper and the camera that looks at it.
 ///
@@ -65,6 +65,8 @@ pub struct PepperSettings {
     pub leaf_cover: f64,
     /// The camera.
     pub camera: DepthCamera,
+    /// The views that are taken and fused.
+    pub scan: ScanSettings,
 }
 
 impl Default for PepperSettings {
@@ -94,6 +96,7 @@ impl Default for PepperSettings {
             center_cm: None,
             leaf_cover: 0.0,
             camera: DepthCamera::default(),
+            scan: ScanSettings::default(),
         }
     }
 }
@@ -108,12 +111,12 @@ impl PepperSettings {
         set_within("lobe_depth", self.lobe_depth, (0.0, 0.4), "0 to 0.4")?;
         set_within("taper", self.taper, (0.0, 0.8), "0 to 0.8")?;
         within("asymmetry", self.asymmetry, (0.0, 0.2), "0 to 0.2")?;
-        self.scene().check()
+        self.surroundings().check()
     }
 
     /// The settings of the surroundings.
-    pub fn scene(&self) -> Scene {
-        Scene {
+    pub fn surroundings(&self) -> Surroundings {
+        Surroundings {
             peduncle_length_cm: self.peduncle_length_cm,
             peduncle_width_cm: self.peduncle_width_cm,
             peduncle_bend_deg: self.peduncle_bend_deg,
@@ -127,26 +130,28 @@ impl PepperSettings {
             center_cm: self.center_cm,
             leaf_cover: self.leaf_cover,
             camera: self.camera.clone(),
+            scan: self.scan.clone(),
         }
     }
 
     /// The same pepper in other surroundings.
     #[must_use]
-    pub fn with_scene(self, scene: Scene) -> Self {
+    pub fn with_surroundings(self, surroundings: Surroundings) -> Self {
         Self {
-            peduncle_length_cm: scene.peduncle_length_cm,
-            peduncle_width_cm: scene.peduncle_width_cm,
-            peduncle_bend_deg: scene.peduncle_bend_deg,
-            peduncle_bend_towards_deg: scene.peduncle_bend_towards_deg,
-            max_tilt_towards_camera_deg: scene.max_tilt_towards_camera_deg,
-            max_tilt_sideways_deg: scene.max_tilt_sideways_deg,
-            tilt_towards_camera_deg: scene.tilt_towards_camera_deg,
-            tilt_sideways_deg: scene.tilt_sideways_deg,
-            spin_deg: scene.spin_deg,
-            distance_cm: scene.distance_cm,
-            center_cm: scene.center_cm,
-            leaf_cover: scene.leaf_cover,
-            camera: scene.camera,
+            peduncle_length_cm: surroundings.peduncle_length_cm,
+            peduncle_width_cm: surroundings.peduncle_width_cm,
+            peduncle_bend_deg: surroundings.peduncle_bend_deg,
+            peduncle_bend_towards_deg: surroundings.peduncle_bend_towards_deg,
+            max_tilt_towards_camera_deg: surroundings.max_tilt_towards_camera_deg,
+            max_tilt_sideways_deg: surroundings.max_tilt_sideways_deg,
+            tilt_towards_camera_deg: surroundings.tilt_towards_camera_deg,
+            tilt_sideways_deg: surroundings.tilt_sideways_deg,
+            spin_deg: surroundings.spin_deg,
+            distance_cm: surroundings.distance_cm,
+            center_cm: surroundings.center_cm,
+            leaf_cover: surroundings.leaf_cover,
+            camera: surroundings.camera,
+            scan: surroundings.scan,
             ..self
         }
     }

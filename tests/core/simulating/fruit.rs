@@ -1,7 +1,7 @@
 //! Fruits of other kinds are what their settings and truths say.
 
 use axiscope::geometry::Cloud;
-use axiscope::simulate::{FruitKind, FruitSettings, Scene, Settings, SimulateError, Simulated, Truth};
+use axiscope::simulate::{FruitKind, FruitSettings, Surroundings, Settings, SimulateError, Simulated, Truth};
 use glam::DVec3;
 
 use super::{exact, labelled, refused};
@@ -16,9 +16,9 @@ fn fruit(kind: FruitKind, seed: u64) -> FruitSettings {
 /// A fruit without noise.
 fn clean(kind: FruitKind, seed: u64) -> FruitSettings {
     FruitSettings {
-        scene: Scene {
+        surroundings: Surroundings {
             camera: exact(),
-            ..Scene::default()
+            ..Surroundings::default()
         },
         ..fruit(kind, seed)
     }
@@ -54,7 +54,7 @@ fn the_truth_makes_the_fruit_again_and_all_kinds_differ() {
     let mut lengths = Vec::new();
     for kind in FruitKind::ALL {
         let mut leafy = fruit(kind, 31);
-        leafy.scene.leaf_cover = 0.2;
+        leafy.surroundings.leaf_cover = 0.2;
         let simulated = simulate(&leafy);
         let json = serde_json::to_string(&simulated.truth).expect("json");
         let back: Truth = serde_json::from_str(&json).expect("the same truth");
@@ -192,7 +192,7 @@ fn fruits_that_make_no_sense_are_refused() {
         ("bend_deg", |s| s.bend_deg = 61.0),
         ("width_cm", |s| (s.bend_deg, s.width_cm) = (60.0, Some(50.0))),
         ("asymmetry", |s| s.asymmetry = Some(f64::INFINITY)),
-        ("leaf_cover", |s| s.scene.leaf_cover = 0.95),
+        ("leaf_cover", |s| s.surroundings.leaf_cover = 0.95),
     ];
     for (name, change) in changes {
         let mut settings = FruitSettings::new(FruitKind::Eggplant);
@@ -200,6 +200,6 @@ fn fruits_that_make_no_sense_are_refused() {
         assert_eq!(refused(settings.simulate()), name);
     }
     let mut away = FruitSettings::new(FruitKind::Apple);
-    away.scene.center_cm = Some(DVec3::new(100.0, 0.0, 40.0));
+    away.surroundings.center_cm = Some(DVec3::new(100.0, 0.0, 40.0));
     assert_eq!(away.simulate().err(), Some(SimulateError::NothingVisible));
 }

@@ -4,6 +4,7 @@ mod camera;
 mod ellipsoid;
 mod fruit;
 mod pepper;
+mod scans;
 mod seeds;
 mod truth;
 

@@ -1,16 +1,17 @@
-//! The options of a fruit's surroundings: peduncle, pose, leaf and camera.
+//! The options of a fruit's surroundings: peduncle, pose, leaf, camera and views.
 
-use axiscope::simulate::Scene;
+use axiscope::simulate::Surroundings;
 use clap::Args;
 use glam::DVec3;
 
+use super::camera::{CameraOptions, ViewOptions};
 use super::set;
 use crate::cli::options::{pair, position};
 
 /// The settings of the surroundings; the seed draws those that are not given.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
-pub(super) struct SceneOptions {
+pub(super) struct SurroundingsOptions {
     /// Length of the peduncle, in cm
     #[arg(long, value_name = "CM", help_heading = "Fruit")]
     peduncle_length_cm: Option<f64>,
@@ -46,23 +47,18 @@ pub(super) struct SceneOptions {
     /// Fraction of the fruit that a leaf in front of it hides
     #[arg(long, value_name = "F", help_heading = "Camera")]
     leaf_cover: Option<f64>,
-    /// Standard deviation of a depth at 40 cm, in cm; it grows with the square of the distance
-    #[arg(long, value_name = "CM", help_heading = "Camera")]
-    noise_cm: Option<f64>,
-    /// Step of the depths, which are whole multiples of it, in cm; 0 for none
-    #[arg(long, value_name = "CM", help_heading = "Camera")]
-    depth_step_cm: Option<f64>,
-    /// Angle between ray and normal beyond which pixels begin to fail, in degrees
-    #[arg(long, value_name = "DEG", help_heading = "Camera")]
-    grazing_deg: Option<f64>,
-    /// Fraction of all other pixels that fail at random
-    #[arg(long, value_name = "F", help_heading = "Camera")]
-    dropout: Option<f64>,
+    #[command(flatten)]
+    camera: CameraOptions,
+    #[command(flatten)]
+    views: ViewOptions,
 }
 
-impl SceneOptions {
+impl SurroundingsOptions {
     /// Changes the settings that are given.
-    pub(super) fn apply(&self, s: &mut Scene) {
+    ///
+    /// # Errors
+    /// Returns an error if the file of poses cannot be read.
+    pub(super) fn apply(&self, s: &mut Surroundings) -> anyhow::Result<()> {
         s.peduncle_length_cm = self.peduncle_length_cm.or(s.peduncle_length_cm);
         s.peduncle_width_cm = self.peduncle_width_cm.or(s.peduncle_width_cm);
         s.peduncle_bend_deg = self.peduncle_bend_deg.or(s.peduncle_bend_deg);
@@ -77,9 +73,7 @@ impl SceneOptions {
         set(&mut s.max_tilt_sideways_deg, self.max_tilt_sideways_deg);
         set(&mut s.distance_cm, self.distance_cm);
         set(&mut s.leaf_cover, self.leaf_cover);
-        set(&mut s.camera.noise_cm, self.noise_cm);
-        set(&mut s.camera.step_cm, self.depth_step_cm);
-        set(&mut s.camera.grazing_deg, self.grazing_deg);
-        set(&mut s.camera.dropout, self.dropout);
+        self.camera.apply(&mut s.camera);
+        self.views.apply(&mut s.scan)
     }
 }

@@ -4,18 +4,18 @@ use glam::{DMat3, DVec3};
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-use super::depth_camera::Measured;
 use super::error::{each_within, set_within, within};
 use super::mesh::Mesh;
 use super::random::{Stream, set_or_draw, stream};
+use super::scan::Scene;
 use super::shape::{Leaf, Paint, Peduncle};
-use super::{DepthCamera, Pose, Settings, SimulateError, TrueAxis, Truth};
-use crate::geometry::{Cloud, Unit};
+use super::{DepthCamera, Pose, ScanSettings, Settings, SimulateError, Simulated, TrueAxis, Truth};
+use crate::geometry::Unit;
 
 /// A fruit's peduncle and pose, the leaf before it, and the camera. The seed draws each field that is `None`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Scene {
+pub struct Surroundings {
     /// Length of the peduncle along its curve, from its calyx; settable from 0.5 to 20 cm.
     pub peduncle_length_cm: Option<f64>,
     /// Its thickness, settable from 0.1 to 5 cm.
@@ -43,9 +43,11 @@ pub struct Scene {
     pub leaf_cover: f64,
     /// The camera.
     pub camera: DepthCamera,
+    /// The views that are taken and fused.
+    pub scan: ScanSettings,
 }
 
-impl Default for Scene {
+impl Default for Surroundings {
     /// A fruit upright to within 25° both ways, 30 to 60 cm ahead, with nothing before it.
     fn default() -> Self {
         Self {
@@ -62,6 +64,7 @@ impl Default for Scene {
             center_cm: None,
             leaf_cover: 0.0,
             camera: DepthCamera::default(),
+            scan: ScanSettings::default(),
         }
     }
 }
@@ -84,10 +87,11 @@ pub(super) struct Placement {
 
 const TURN: (f64, f64) = (-360.0, 360.0);
 
-impl Scene {
+impl Surroundings {
     /// Checks the range of every setting, which NaN is out of.
     pub(super) fn check(&self) -> Result<(), SimulateError> {
         self.camera.check()?;
+        self.scan.check()?;
         let set = set_within;
         let length = (0.5, 20.0);
         set("peduncle_length_cm", self.peduncle_length_cm, length, "0.5 to 20")?;
@@ -161,7 +165,10 @@ impl Scene {
         let center_cm = self.draw_center(reach.ball_cm, peduncle, rng);
         self.center_cm = Some(center_cm);
         // A camera inside would see the skin's inner side.
-        if center_cm.length() <= reach.ball_cm * reach.margin {
+        let ball_cm = reach.ball_cm * reach.margin;
+        let views = self.scan.views(center_cm);
+        let mut cameras = views.into_iter().map(|view| view.position_cm);
+        if center_cm.length() <= ball_cm || cameras.any(|camera| camera.distance(center_cm) <= ball_cm) {
             return Err(SimulateError::ViewpointInside);
         }
         // Spin about the fruit's own axis, half a turn from the fruit's y up to the image's y down, then
@@ -193,38 +200,35 @@ impl Scene {
         self.center_cm.unwrap_or(drawn)
     }
 
-    /// Measures a fruit in the camera's frame, with a leaf before it if one is asked for. Returns the cloud and
-    /// the share that the leaf hides.
+    /// Measures a fruit whose mesh is in the camera's frame, with a leaf before it if one is asked for, and adds what was
+    /// measured to the truth about it.
     ///
     /// # Errors
     /// Returns an error if the camera sees nothing of the fruit.
     pub(super) fn measure(
         &self,
-        mut mesh: Mesh,
-        seed: u64,
+        mesh: Mesh,
         paint: &Paint,
-    ) -> Result<(Cloud, Option<f64>), SimulateError> {
-        let camera = &self.camera;
-        let mut image = camera.look(&mesh);
-        if image.covered() == 0 {
-            return Err(SimulateError::NothingVisible);
-        }
-        let mut hidden_by_leaf = None;
+        mut truth: Truth,
+    ) -> Result<Simulated, SimulateError> {
+        let (camera, seed) = (&self.camera, truth.seed);
+        let mut scene = Scene::new(mesh);
         if self.leaf_cover > 0.0 {
+            let image = scene.fruit_in_middle_view(camera);
+            if image.covered() == 0 {
+                return Err(SimulateError::NothingVisible);
+            }
             let leaf = Leaf::draw(&mut stream(seed, Stream::Leaf));
             let (leaf, hidden) = leaf.covering(self.leaf_cover, camera, &image, paint);
-            let before = mesh.triangles.len();
-            mesh.append(&leaf);
-            let around_fruit = image.bounds();
-            camera.look_on(&mesh, before, &mut image);
-            image.crop(around_fruit);
-            hidden_by_leaf = Some(hidden);
+            scene.add_leaf(&leaf);
+            truth.hidden_by_leaf = Some(hidden);
         }
-        let measured = camera.measure(&mesh, &image, &mut stream(seed, Stream::Camera));
-        if !measured.iter().any(|m| m.label == Cloud::FRUIT) {
-            return Err(SimulateError::NothingVisible);
-        }
-        Ok((cloud_of(&measured), hidden_by_leaf))
+        let scanned = scene.scan(camera, &self.scan, truth.center, seed)?;
+        truth.coverage = scanned.coverage;
+        Ok(Simulated {
+            cloud: scanned.cloud,
+            truth,
+        })
     }
 }
 
@@ -251,26 +255,8 @@ impl Placement {
             viewpoint: DVec3::ZERO,
             without_peduncle: false,
             hidden_by_leaf: None,
+            coverage: None,
             settings,
         }
     }
-}
-
-/// Makes a cloud of the measured points.
-///
-/// # Panics
-/// Never: each point brings its own color and label.
-fn cloud_of(measured: &[Measured]) -> Cloud {
-    const LENGTHS: &str = "a color and a label for each point";
-    // Clamped to bytes before they become whole.
-    let byte = |channel: f32| channel.round().clamp(0.0, 255.0) as u8;
-    let colors = measured.iter().map(|m| {
-        let [r, g, b] = m.color.to_array().map(byte);
-        [r, g, b, u8::MAX]
-    });
-    Cloud::new(measured.iter().map(|m| m.point_in_camera).collect())
-        .with_colors(colors.collect())
-        .expect(LENGTHS)
-        .with_labels(measured.iter().map(|m| m.label).collect())
-        .expect(LENGTHS)
 }
