@@ -10,7 +10,6 @@
 pub mod body;
 mod directions;
 mod estimator;
-mod fits;
 mod least_squares;
 mod outcome;
 mod paper;

@@ -18,9 +18,8 @@
 use glam::DVec3;
 use nalgebra::{Matrix3, Vector3};
 
-use super::fits::{Fit, estimate_of};
-use super::{Estimate, EstimateError, Estimator, Surface, View, half_sphere};
-use crate::geometry::{Plane, angle_between_directions_rad};
+use super::{Alternative, Estimate, EstimateError, Estimator, Surface, View, half_sphere};
+use crate::geometry::{Plane, angle_between_directions_rad, angle_between_lines_rad};
 use crate::method::{Aggregation, Analysis, TAU_CM_PER_RAD, has_visible_partner, symmetry_axis};
 use crate::neighbors::Neighbors;
 use crate::parallel::{Watch, map_pieces};
@@ -34,8 +33,12 @@ const STEPS: usize = 12;
 const LEAST_STEP: f64 = 1e-4;
 /// The residual beyond which a pair weighs less, relative to the fruit's size.
 const THRESHOLD: f64 = 0.03;
+/// Axes closer than this are one, found twice.
+const SAME_DEG: f64 = 8.0;
+/// The most alternatives that are reported.
+const ALTERNATIVES: usize = 5;
 /// The lead, as a share of the best score, below which the axis is ambiguous.
-const LEAST_LEAD: f64 = 0.1;
+const LEAST_LEAD: f64 = 0.2;
 
 /// Refines the best planes of the paper's ranking, and others.
 ///
@@ -64,11 +67,29 @@ pub(super) fn estimate(
     let found = map_pieces(starts.len(), 1, watch, |range| {
         refinement.fit(starts[range.start])
     })?;
-    let fits: Vec<Fit> = found.into_iter().flatten().collect();
-    let best = fits.iter().map(|fit| fit.cost).fold(f64::INFINITY, f64::min);
-    let mut estimate = estimate_of(Estimator::Plane, surface, fits)?;
-    estimate.ambiguous = estimate.lead.is_some_and(|lead| lead < LEAST_LEAD * best);
+    let mut fits: Vec<Fit> = found.into_iter().flatten().collect();
+    fits.sort_by(|a, b| a.axis.cost.total_cmp(&b.axis.cost));
+    let best = *fits.first().ok_or(EstimateError::NoFit)?;
+    let mut others: Vec<Alternative> = Vec::new();
+    for Fit { axis, .. } in fits {
+        let apart =
+            |a: &Alternative| angle_between_lines_rad(a.direction, axis.direction).to_degrees() > SAME_DEG;
+        if apart(&best.axis) && others.iter().all(apart) && others.len() < ALTERNATIVES {
+            others.push(axis);
+        }
+    }
+    let mut estimate = Estimate::fitted(Estimator::Plane, surface, best.center_cm, &best.axis, others);
+    estimate.ambiguous = estimate
+        .lead
+        .is_some_and(|lead| lead < LEAST_LEAD * best.axis.cost);
     Ok(estimate)
+}
+
+/// The axis of a refined plane, with the plane's cost, and the point of the plane that is nearest to the center.
+#[derive(Clone, Copy)]
+struct Fit {
+    axis: Alternative,
+    center_cm: DVec3,
 }
 
 struct Refinement<'a> {
@@ -140,9 +161,8 @@ impl Refinement<'_> {
         let center_cm = self.surface.center - plane.signed_distance(self.surface.center) * plane.normal;
         let direction = symmetry_axis(plane.normal, center_cm, DVec3::ZERO).ok()?;
         Some(Fit {
-            direction,
+            axis: Alternative { direction, cost },
             center_cm,
-            cost,
         })
     }
 

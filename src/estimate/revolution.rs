@@ -9,6 +9,9 @@
 //! spheroids, cones, cylinders) exactly. β is normally distributed: these three widely, the others narrowly. A residual
 //! is Sampson's distance of first order, r = (ρ² − f) / √(4ρ² + f′²), under Huber's loss.
 //!
+//! Among the bodies that the starts end in, the outline in the image decides as well: one that reaches beyond the seen
+//! contour cannot be the fruit (see [`super::body`]).
+//!
 //! The pose has four numbers: two turns of a and two shifts of c across it. A shift along a only relabels t. With q =
 //! (p − c)/S, w its part across a, and g the denominator's inverse,
 //!

@@ -13,7 +13,8 @@
 //!
 //! **The axis** of a superquadric is a matter of choice: all three of its own are axes of symmetry. Fruits are nearly
 //! rotational, so the priors say a₁ ≈ a₂ and ε₂ ≈ 1 and leave a₃, ε₁ and the taper wide: z is the axis about which the body
-//! is nearly rotational. Other directions, at which other searches start, have to pay for their oval section.
+//! is nearly rotational. Other directions, at which other searches start, have to pay for their oval section. The outline in the image decides as well: a body that reaches beyond the seen
+//! contour cannot be the fruit (see [`super::body`]).
 
 use glam::{DMat3, DVec3};
 use nalgebra::DVector;
@@ -319,6 +320,36 @@ impl LeastSquares for Problem<'_> {
             rotation: turned,
             center: body.center + body.rotation * shift,
             shape,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_derivatives_are_those_of_the_function() {
+        let shape: Shape = [0.1, -0.05, 0.4, 0.8, 1.1, 0.3];
+        for point in [DVec3::new(0.7, -0.4, 0.9), DVec3::new(-0.2, 1.3, -1.1)] {
+            let at = radial(&shape, point);
+            let near =
+                |by: f64, expected: f64| assert!((by - expected).abs() < 1e-6, "{by} is not {expected}");
+            let h = 1e-6;
+            for e in 0..3 {
+                let mut moved = [point, point];
+                moved[0][e] -= h;
+                moved[1][e] += h;
+                let [low, high] = moved.map(|p| radial(&shape, p).log);
+                near(at.by_point[e], (high - low) / (2.0 * h));
+            }
+            for k in 0..shape.len() {
+                let mut moved = [shape, shape];
+                moved[0][k] -= h;
+                moved[1][k] += h;
+                let [low, high] = moved.map(|s| radial(&s, point).log);
+                near(at.by_shape[k], (high - low) / (2.0 * h));
+            }
         }
     }
 }

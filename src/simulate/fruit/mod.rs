@@ -9,8 +9,8 @@ use rand::{Rng, RngExt};
 use self::bend::Bend;
 use super::error::within;
 use super::random::{Stream, set_or_draw, stream};
-use super::surroundings::Reach;
 use super::shape::{Asymmetry, Body, Form, Paint};
+use super::surroundings::Reach;
 use super::{Settings, SimulateError, Simulated, Truth};
 
 pub use self::kind::FruitKind;
@@ -39,7 +39,9 @@ impl FruitSettings {
 
         let has_peduncle = self.kind != FruitKind::Ball || self.surroundings.peduncle_length_cm.is_some();
         let ranges = [measures.peduncle_length_cm, measures.peduncle_width_cm];
-        let peduncle = drawn.surroundings.draw_peduncle(body.calyx_cm(), ranges, &mut shape);
+        let peduncle = drawn
+            .surroundings
+            .draw_peduncle(body.calyx_cm(), ranges, &mut shape);
         let reach = Reach {
             ball_cm: body.ball_cm() + bend.map_or(0.0, |bend| bend.sagitta_cm()),
             margin: 1.0 + 2.0 * drawn.asymmetry.unwrap_or(0.0),

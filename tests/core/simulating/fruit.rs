@@ -1,7 +1,7 @@
 //! Fruits of other kinds are what their settings and truths say.
 
 use axiscope::geometry::Cloud;
-use axiscope::simulate::{FruitKind, FruitSettings, Surroundings, Settings, SimulateError, Simulated, Truth};
+use axiscope::simulate::{FruitKind, FruitSettings, Settings, SimulateError, Simulated, Surroundings, Truth};
 use glam::DVec3;
 
 use super::{exact, labelled, refused};
