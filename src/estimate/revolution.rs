@@ -80,6 +80,9 @@ struct Revolutions<'a> {
 impl Family for Revolutions<'_> {
     type Body = State;
 
+    /// Simulated fruits miss by up to 4.4 %, two peppers side by side by 4.3 to 5.8 %.
+    const LARGEST_RMS: f64 = 0.047;
+
     fn search(&self, axis: DVec3, watch: &dyn Watch) -> Result<Option<Fitted<State>>, EstimateError> {
         let start = self.coarse.start(axis, self.coarse.first_center);
         self.coarse.fit(start, SEARCH, watch)

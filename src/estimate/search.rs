@@ -21,9 +21,6 @@ const OUTLINE_WEIGHT: f64 = 20.0;
 /// A lead below this may be chance: wrong axes of simulated fruits and axes of balls led by up to 4.
 const LEAST_LEAD: f64 = 5.0;
 
-/// The misfit, relative to the fruit's size, above which the fruit is no body of the family: those of simulated fruits
-/// are up to 4.4 %, two peppers side by side have 3.8 to 5.8 %.
-const LARGEST_RMS: f64 = 0.047;
 /// The standard deviation of the body's radius, as a share of its mean, below which it is a ball, which has no axis.
 const LEAST_SPREAD: f64 = 0.03;
 
@@ -41,6 +38,9 @@ pub(super) struct Fitted<B> {
 pub(super) trait Family: Sync {
     /// One body.
     type Body: Clone + Send + Sync;
+
+    /// The misfit, relative to the fruit's size, above which the fruit is hardly of this family.
+    const LARGEST_RMS: f64;
 
     /// Fits a body to the coarse sample from an axis at which the search starts.
     ///
@@ -130,7 +130,7 @@ pub(super) fn estimate<F: Family>(
         estimate.ambiguous = true;
         estimate.warnings.push(warning);
     };
-    if best.fitted.rms > LARGEST_RMS {
+    if best.fitted.rms > F::LARGEST_RMS {
         let percent = 100.0 * best.fitted.rms;
         doubt(format!(
             "The body misses the points by {percent:.1} % of the fruit's size, so that the fruit is hardly of its family."

@@ -65,6 +65,9 @@ struct Superquadrics<'a> {
 impl Family for Superquadrics<'_> {
     type Body = Body;
 
+    /// Simulated fruits miss by up to 2.9 %, two peppers side by side by 3.8 to 5.7 %.
+    const LARGEST_RMS: f64 = 0.035;
+
     fn search(&self, axis: DVec3, watch: &dyn Watch) -> Result<Option<Fitted<Body>>, EstimateError> {
         self.coarse.fit(self.coarse.start(axis), SEARCH, watch)
     }
