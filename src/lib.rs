@@ -43,6 +43,7 @@
 //! | Module | Contents |
 //! | --- | --- |
 //! | [`parallel`] | work on several cores, its progress and its cancellation |
+//! | [`files`] | files read up to a limit, and written whole or not at all |
 //! | [`neighbors`] | the exact nearest neighbors of many queries at once |
 //! | [`geometry`] | point clouds with their unit, planes, lines and angles, normals (Eq. 2), filters |
 //! | [`method`] | the paper, a file a step: center (Eq. 3), candidate planes (Eq. 4–10), partners (Eq. 11–14), score (Eq. 15), axis (Eq. 16) |
@@ -92,6 +93,7 @@ pub mod app;
 pub mod charts;
 pub mod estimate;
 pub mod evaluate;
+pub mod files;
 pub mod fruit;
 pub mod geometry;
 pub mod method;

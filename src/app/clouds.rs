@@ -44,7 +44,11 @@ impl App {
     }
 
     pub(super) fn open_sample(&mut self, sample: Sample) {
-        let place = self.context.state.add(Source::Bundled(sample));
+        self.add_and_show(Source::Bundled(sample));
+    }
+
+    pub(super) fn add_and_show(&mut self, source: Source) {
+        let place = self.context.state.add(source);
         self.list_changed(false);
         self.context.state.true_axes.leave_subject();
         self.show(place);
@@ -99,8 +103,7 @@ impl State {
             problems: Vec::new(),
         };
         // A sample makes room for the first file of one's own.
-        self.entries
-            .retain(|entry| matches!(entry.source, Source::File(_)));
+        self.entries.retain(|entry| entry.source.is_file());
         self.current = self.current.filter(|&i| i < self.entries.len());
         let entries = self.entries.iter().enumerate();
         let mut known: HashMap<Source, usize> = entries

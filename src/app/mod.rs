@@ -20,6 +20,7 @@ pub mod many;
 pub mod peduncle;
 mod samples;
 mod session;
+mod simulator;
 mod state;
 mod tool;
 pub mod true_axes;
@@ -37,6 +38,7 @@ use context::{Context, Step};
 use inspector::Inspector;
 use many::{Many, ManyState};
 use peduncle::PeduncleTools;
+use simulator::Simulator;
 use true_axes::TrueAxes;
 use workers::{Pool, Repaint};
 
@@ -48,6 +50,7 @@ pub use inspector::stages::{AnalyzedFruit, Source};
 pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};
+pub use simulator::{SimulatedPepper, SimulatorCommand, SimulatorState, Slider, SliderGroup, Trail};
 pub use state::{Entry, Message, PlaneChoice, Settings, State, TruthChoice};
 pub use tool::Tool;
 pub use true_axes::{TrueAxesCommand, TrueAxesState};
@@ -59,6 +62,7 @@ pub struct App {
     peduncle: PeduncleTools,
     true_axes: TrueAxes,
     many: Many,
+    simulator: Simulator,
 }
 
 impl App {
@@ -80,6 +84,7 @@ impl App {
             peduncle: PeduncleTools::new(pool),
             true_axes: TrueAxes::new(pool),
             many: Many::new(pool),
+            simulator: Simulator::new(pool),
         })
     }
 
@@ -113,6 +118,7 @@ impl App {
                 }
             }
             Command::Close => self.close(),
+            Command::Simulate(command) => self.simulate(command),
 
             Command::EndGesture => cx.undo.end_gesture(),
             Command::Undo => self.travel(History::undo),
@@ -139,10 +145,11 @@ impl App {
     /// Takes what the jobs have made, and asks for what is wanted now: to be called once a frame. `elapsed` is the time
     /// since the last call.
     pub fn update(&mut self, elapsed: Duration) {
-        let cx = &mut self.context;
-        self.many.update(elapsed, cx);
+        self.many.update(elapsed, &mut self.context);
         // The background waits while a frame may wait for the current cloud.
         self.many.set_yielding(true);
+        self.update_simulated();
+        let cx = &mut self.context;
         self.inspector.update(elapsed, cx);
         self.true_axes.update(cx);
         self.inspector.update_view(cx);
@@ -161,7 +168,10 @@ impl App {
 
     /// Whether somebody waits for a result: the background's work on all clouds does not count.
     pub fn is_current_busy(&self) -> bool {
-        self.inspector.is_busy() || self.peduncle.is_busy() || self.true_axes.is_busy()
+        self.inspector.is_busy()
+            || self.peduncle.is_busy()
+            || self.true_axes.is_busy()
+            || self.simulator.is_busy()
     }
 
     /// Waits until every edit of an axis is written.
@@ -205,6 +215,11 @@ impl App {
             Some(Step::Settings(settings)) => {
                 std::mem::swap(&mut **settings, &mut cx.state.settings);
                 cx.state.previewed = None;
+            }
+            Some(Step::Simulated(settings)) => {
+                if let Some(present) = &mut cx.state.simulator.settings {
+                    std::mem::swap(settings, present);
+                }
             }
             Some(Step::Tags { path, tagged }) => {
                 let now = self.many.tagged(&cx.state.many.rows, path);

@@ -5,9 +5,11 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use axiscope::evaluate::reproduce::{ReproduceSettings, Reproduction, run_ellipsoids, run_peppers};
+use axiscope::files::write_all;
 use clap::Args;
 
 use super::options::{Depths, depths, grid_size};
+use super::output::say;
 use super::progress::CountingBar;
 
 #[derive(Debug, Args)]
@@ -58,14 +60,15 @@ pub(super) fn run(args: &Reproduce) -> anyhow::Result<()> {
         depths,
         peppers,
     };
-    for (name, bytes) in reproduction.files()? {
-        let path = args.out.join(name);
-        std::fs::write(&path, bytes).with_context(|| path.display().to_string())?;
-    }
+    let files = reproduction.files()?;
+    let files = files
+        .into_iter()
+        .map(|(name, bytes)| (args.out.join(name), bytes));
+    write_all(&files.collect::<Vec<_>>())?;
     std::io::stdout()
         .lock()
         .write_all(reproduction.report().as_bytes())?;
-    eprintln!(
+    say!(
         "Wrote the report, its tables and its figures to {}.",
         args.out.display()
     );

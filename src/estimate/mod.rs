@@ -13,7 +13,12 @@ mod estimator;
 mod least_squares;
 mod outcome;
 mod paper;
+mod plane;
+mod revolution;
+mod robust;
 mod sample;
+mod search;
+mod superquadric;
 mod surface;
 mod view;
 

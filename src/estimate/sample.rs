@@ -34,7 +34,7 @@ impl Sample {
                 normals: normals.to_vec(),
             });
         };
-        let (order, starts) = by_cell(points, edge);
+        let (order, starts) = by_cell(points, edge, watch)?;
         let mut counts: Vec<usize> = starts.windows(2).map(|w| w[1] - w[0]).collect();
         counts.sort_unstable();
         let least = LEAST_SHARE * counts.get(counts.len() / 2).map_or(0.0, |&c| c as f64);

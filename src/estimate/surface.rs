@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use glam::DVec3;
 
 use super::{EstimateError, Sample, View};
-use crate::geometry::{Spread, Unit, by_cell, estimate_normals, voxel_edge_for};
+use crate::geometry::{Spread, Unit, by_cell, estimate_normals, strays_watched, voxel_edge_for, without};
 use crate::method::fit_sphere;
 use crate::parallel::{Cancelled, Watch};
 
@@ -45,7 +45,7 @@ impl Surface {
     const COARSE: usize = 160;
     const FINE: usize = 450;
 
-    /// Prepares the surface of a fruit from its points and its viewpoint, in the file's unit and frame.
+    /// Prepares the surface of a fruit from its points and its viewpoint, in the file's unit and frame. Strays are left out.
     ///
     /// # Errors
     /// Returns an error if the points are too few, on a line or in a plane, or the watch cancels the work.
@@ -56,7 +56,10 @@ impl Surface {
         watch: &dyn Watch,
     ) -> Result<Self, EstimateError> {
         let in_cm = unit.in_cm();
-        let points: Vec<DVec3> = positions.iter().map(|&p| (p - viewpoint) * in_cm).collect();
+        // A single stray would set the size and the center.
+        let strays = strays_watched(positions, watch)?;
+        let kept = without(&strays, positions.len()).map(|i| positions[i]);
+        let points: Vec<DVec3> = kept.map(|p| (p - viewpoint) * in_cm).collect();
         let points = thinned(points, watch)?;
         let (points, mut normals) = with_normals(points, watch)?;
         let spread = checked_spread(&points)?;
@@ -87,6 +90,11 @@ impl Surface {
         self.unit
     }
 
+    /// Returns a position in the file's unit and frame as this room has it.
+    pub fn of_file(&self, position: DVec3) -> DVec3 {
+        (position - self.viewpoint) * self.unit.in_cm()
+    }
+
     /// Returns a position of this room in the file's unit and frame.
     pub fn in_file(&self, position_cm: DVec3) -> DVec3 {
         self.viewpoint + position_cm / self.unit.in_cm()
@@ -98,7 +106,7 @@ fn thinned(points: Vec<DVec3>, watch: &dyn Watch) -> Result<Vec<DVec3>, Cancelle
     let Some(edge) = voxel_edge_for(&points, Surface::MOST_POINTS, watch)? else {
         return Ok(points);
     };
-    let (order, starts) = by_cell(&points, edge);
+    let (order, starts) = by_cell(&points, edge, watch)?;
     let cells = starts.windows(2).map(|w| &order[w[0]..w[1]]);
     let mean = |cell: &[usize]| cell.iter().map(|&i| points[i]).sum::<DVec3>() / cell.len() as f64;
     Ok(cells.map(mean).collect())

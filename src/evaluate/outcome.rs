@@ -6,10 +6,10 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    EstimateInRow, Examination, Row, TruthChoice, estimates_of, examine, peduncle_disagreement_deg,
-    reference_of,
+    ErrorBreakdown, EstimateInRow, Examination, Row, TruthChoice, estimates_of, examine_file,
+    peduncle_disagreement_deg, reference_of,
 };
-use crate::fruit::{Fruit, FruitError, ReadErrorKind, Request};
+use crate::fruit::{Fruit, Request};
 use crate::geometry::angle_between_lines_rad;
 use crate::method::{Analysis, AxisEstimate, Observe, axis_error_rad};
 use crate::parallel::Cancelled;
@@ -23,6 +23,8 @@ pub struct KnownAxis {
     pub direction: [f64; 3],
     /// The angle to it from the computed axis, 0 to 90 degrees.
     pub error_deg: Option<f64>,
+    /// The parts of that error.
+    pub error_parts: Option<ErrorBreakdown>,
 }
 
 /// The result of one cloud against each of its reference axes.
@@ -56,16 +58,19 @@ impl Outcome {
             analysis,
             references,
             warnings,
+            at_true_center,
             ..
         } = examined;
-        Self::of_parts(file, fruit, analysis, references, warnings)
+        let given = at_true_center.as_ref();
+        Self::of_parts(file, fruit, analysis, given, references, warnings)
     }
 
-    /// Creates the same outcome as [`Outcome::of`] from the parts.
+    /// Creates the same outcome as [`Outcome::of`] from the fields of an [`Examination`].
     pub fn of_parts(
         file: &str,
         fruit: &Fruit,
         analysis: &Analysis,
+        at_true_center: Option<&Analysis>,
         references: &[AxisEstimate],
         warnings: &[String],
     ) -> Self {
@@ -76,6 +81,7 @@ impl Outcome {
                 name: reference.source.name().into_owned(),
                 direction: reference.direction.to_array(),
                 error_deg: axis.map(|axis| axis_error_rad(axis, reference).to_degrees()),
+                error_parts: ErrorBreakdown::new(fruit, analysis, at_true_center, reference),
             })
         };
         let (peduncle, truth) = (known(TruthChoice::Peduncle), known(TruthChoice::Truth));
@@ -105,6 +111,7 @@ impl Outcome {
             peduncle_disagreement_deg: peduncle_disagreement_deg(references),
             true_axis_error_deg: error(&truth),
             manual_error_deg: error(&manual),
+            coverage: fruit.truth.as_ref().and_then(|truth| truth.coverage),
             annotators: annotators.join(", "),
             warnings: warnings.join(" "),
             failure: None,
@@ -131,24 +138,16 @@ impl Outcome {
         request: &Request,
         observe: &dyn Observe,
     ) -> Result<(Self, Option<Examination>), Cancelled> {
-        let failed = |reason| Ok((Self::failed(file, reason), None));
-        let fruit = match Fruit::read_watched(path, request, observe) {
-            Ok(fruit) => fruit,
-            Err(FruitError::Read(error)) if matches!(error.kind, ReadErrorKind::Cancelled) => {
-                return Err(Cancelled);
-            }
-            Err(error) => return failed(error.reason()),
-        };
-        match examine(fruit, request, observe) {
+        match examine_file(path, request, observe)? {
             Ok(examined) => {
+                let examined = examined.with_true_center(observe)?;
                 let mut outcome = Self::of(file, &examined);
                 let estimates = estimates_of(&examined, &request.estimates, observe)?;
                 outcome.row.estimates = estimates.iter().map(EstimateInRow::of).collect();
                 outcome.row = outcome.against(TruthChoice::Auto);
                 Ok((outcome, Some(examined)))
             }
-            Err(error) if error.is_cancelled() => Err(Cancelled),
-            Err(error) => failed(error.to_string()),
+            Err(reason) => Ok((Self::failed(file, reason), None)),
         }
     }
 
@@ -217,6 +216,7 @@ impl Outcome {
             truth: reference.map(|r| r.name.clone()),
             truth_axis: reference.map(|r| r.direction),
             error_deg: reference.and_then(|r| r.error_deg),
+            error_parts: reference.and_then(|r| r.error_parts.clone()),
             failure: self.failure(choice).map(str::to_owned),
             ..self.row.clone()
         }

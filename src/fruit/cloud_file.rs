@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 use crate::parallel::{Cancelled, PartOf, Watch};
 use crate::ply::{self, PlyCloud, PlyError, Problem};
+use crate::simulate::SimulateError;
 
 /// A cloud and its file.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,6 +59,9 @@ pub enum ReadErrorKind {
     /// It is no PLY file, or a malformed one.
     #[error(transparent)]
     Ply(PlyError),
+    /// The simulator gives no cloud with these settings.
+    #[error(transparent)]
+    Simulation(#[from] SimulateError),
     /// Reading was called off.
     #[error("reading was called off")]
     Cancelled,

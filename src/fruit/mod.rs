@@ -8,6 +8,7 @@ mod picked;
 mod read;
 mod request;
 mod request_options;
+mod simulated_files;
 pub mod unit_guess;
 
 pub use axis_files::{AxisFile, AxisFiles, annotation_paths, read_annotations};
@@ -19,3 +20,4 @@ pub use listing::{clouds_in, files_behind};
 pub use picked::PickedPoints;
 pub use read::{Fruit, FruitError, PeduncleChoice, companion_path, removed_path, truth_path};
 pub use request::Request;
+pub use simulated_files::simulated_files;

@@ -86,6 +86,9 @@ impl Request {
                 add("--prior", self.estimates.prior.to_string());
             }
         }
+        if params.filters.keep_strays {
+            words.push("--keep-strays".into());
+        }
         if self.without_peduncle {
             words.push("--without-peduncle".into());
         }

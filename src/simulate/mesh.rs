@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
+use super::views::View;
+
 /// A point of a surface with its color (red, green, blue, 0 to 255).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vertex {
@@ -77,6 +79,23 @@ impl Mesh {
         mesh.finish()
     }
 
+    /// Makes a surface of triangles whose corners have a color and a label each.
+    pub(super) fn of_triangles(
+        positions: Vec<DVec3>,
+        colors: Vec<Vec3>,
+        labels: Vec<i32>,
+        triangles: Vec<[u32; 3]>,
+    ) -> Self {
+        let mesh = Self {
+            positions,
+            normals: Vec::new(),
+            colors,
+            labels,
+            triangles,
+        };
+        mesh.finish()
+    }
+
     fn push(&mut self, vertex: Vertex, label: i32) {
         self.positions.push(vertex.position);
         self.colors.push(vertex.color);
@@ -111,6 +130,20 @@ impl Mesh {
         self.labels.extend(&other.labels);
         self.triangles
             .extend(other.triangles.iter().map(|t| t.map(|i| i + offset)));
+    }
+
+    /// Moves each corner by a function of its place, and computes the normals anew.
+    pub(super) fn deformed(mut self, place: impl Fn(DVec3) -> DVec3) -> Self {
+        for p in &mut self.positions {
+            *p = place(*p);
+        }
+        self.finish()
+    }
+
+    /// Moves the surface from the frame into that of a camera in it.
+    pub(super) fn seen_from(self, view: View) -> Self {
+        let to_camera = view.rotation.transpose();
+        self.moved(to_camera, -(to_camera * view.position_cm))
     }
 
     /// Moves the surface rigidly.

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::{EllipsoidSettings, PepperSettings};
+use super::{EllipsoidSettings, FruitSettings, MeshScanSettings, PepperSettings};
 use crate::geometry::{Cloud, Unit};
 
 /// A cloud and the truth about it.
@@ -27,12 +27,12 @@ pub struct TrueAxis {
 /// The pose of the fruit: `point_in_camera = rotation · point_in_fruit + translation`.
 ///
 /// The fruit's frame has its origin in the fruit's center and its y axis towards the stem end; an
-/// upright fruit of zero spin has x to the image's right, y up and z towards the camera.
+/// upright fruit of zero spin has x to the image's right, y up and z towards the camera. A mesh has its file's own frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Three rows of a rotation matrix.
     pub rotation: [[f64; 3]; 3],
-    /// The fruit's center in the camera's frame, in the truth's unit.
+    /// The fruit's center, or the origin of a mesh's frame, in the camera's frame, in the truth's unit.
     pub translation: DVec3,
 }
 
@@ -60,12 +60,16 @@ pub enum Settings {
     Ellipsoid(EllipsoidSettings),
     /// A pepper before a depth camera.
     Pepper(Box<PepperSettings>),
+    /// A fruit of another kind before a depth camera.
+    Fruit(Box<FruitSettings>),
+    /// A mesh before a depth camera.
+    Mesh(Box<MeshScanSettings>),
 }
 
 /// The truth about a simulated cloud: the content of a `.truth.json` file.
 ///
 /// Lengths are in [`Truth::unit`], the cloud's own, except in the settings, whose names say `_cm`.
-/// In JSON the settings are two fields: `kind` (`"ellipsoid"` or `"pepper"`) and `settings`.
+/// In JSON the settings are two fields: `kind` (`"ellipsoid"`, `"pepper"`, `"fruit"` or `"mesh"`) and `settings`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
     /// [`Truth::SCHEMA`].
@@ -100,6 +104,10 @@ pub struct Truth {
     pub without_peduncle: bool,
     /// The fraction of the fruit's and the peduncle's pixels that a leaf hides, measured; `None` without a leaf.
     pub hidden_by_leaf: Option<f64>,
+    /// The fraction of the fruit's surface, without peduncle and leaf, that was seen from any view at less than the
+    /// camera's grazing angle; `None` in truths that were written before this was measured.
+    #[serde(default)]
+    pub coverage: Option<f64>,
     /// The kind of simulation and its settings.
     #[serde(flatten)]
     pub settings: Settings,
@@ -108,6 +116,15 @@ pub struct Truth {
 impl Truth {
     /// The name and version of the format.
     pub const SCHEMA: &'static str = "axiscope.truth/1";
+
+    /// The lean: the angle between the axis and the plane across the view ray, in degrees, -90 to 90, positive where the
+    /// stem end leans towards the viewpoint. Eq. 16 gives axes in that plane only, so that each is wrong by the lean at
+    /// least.
+    pub fn lean_deg(&self) -> f64 {
+        let to_viewpoint = (self.viewpoint - self.center).normalize_or_zero();
+        let sin = self.axis.direction.dot(to_viewpoint);
+        sin.clamp(-1.0, 1.0).asin().to_degrees()
+    }
 
     /// Converts all lengths to another unit, except for the settings, which stay in centimeters.
     #[must_use]

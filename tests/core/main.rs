@@ -5,7 +5,9 @@ mod helpers;
 
 mod annotating;
 mod annotating_format;
+mod calling_off;
 mod estimating;
+mod estimating_shapes;
 mod geometry;
 mod method_choices;
 mod method_reference;

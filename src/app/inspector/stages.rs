@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::app::samples::Sample;
+use crate::app::simulator::SimulatedPepper;
 use crate::fruit::{
     CloudFile, Fruit, FruitError, PeduncleChoice, ReadError, ReadErrorKind, Request, parse_cloud,
     read_cloud_watched,
@@ -20,6 +21,15 @@ pub enum Source {
     File(PathBuf),
     /// A sample that the program brings along.
     Bundled(Sample),
+    /// A pepper of the simulator, which has no file.
+    Simulated(SimulatedPepper),
+}
+
+/// A cloud as its source gives it, with the text of its truth if that lies in no file.
+#[derive(Debug, Clone)]
+struct Content {
+    file: Arc<CloudFile>,
+    truth: Option<Arc<str>>,
 }
 
 impl Source {
@@ -28,6 +38,7 @@ impl Source {
         match self {
             Self::File(path) => path,
             Self::Bundled(sample) => Path::new(sample.path()),
+            Self::Simulated(_) => Path::new("<simulated>/simulated_pepper.ply"),
         }
     }
 
@@ -40,11 +51,24 @@ impl Source {
             .into_owned()
     }
 
-    fn read(&self, watch: &dyn Watch) -> Result<CloudFile, ReadError> {
-        match self {
-            Self::File(path) => read_cloud_watched(path, watch),
-            Self::Bundled(sample) => parse_cloud(sample.path(), sample.bytes()),
-        }
+    /// Whether the cloud lies in a file, beside which others can be kept.
+    pub fn is_file(&self) -> bool {
+        matches!(self, Self::File(_))
+    }
+
+    fn read(&self, watch: &dyn Watch) -> Result<Content, ReadError> {
+        let (file, truth) = match self {
+            Self::File(path) => (read_cloud_watched(path, watch)?, None),
+            Self::Bundled(sample) => {
+                let file = parse_cloud(sample.path(), sample.bytes())?;
+                (file, Some(sample.truth().into()))
+            }
+            Self::Simulated(pepper) => pepper.read(self.path())?,
+        };
+        Ok(Content {
+            file: Arc::new(file),
+            truth,
+        })
     }
 }
 
@@ -62,7 +86,7 @@ const LARGE: usize = 100_000;
 /// kept until something that it depends on changes. A copy shares everything.
 #[derive(Debug, Clone, Default)]
 pub struct FruitStages {
-    file: Option<(Source, Arc<CloudFile>)>,
+    content: Option<(Source, Content)>,
     fruit: Option<(FruitKey, Arc<Fruit>)>,
     /// A fruit's cloud without the peduncle's points.
     body: Option<(Arc<Fruit>, Cloud)>,
@@ -89,6 +113,8 @@ pub struct AnalyzedFruit {
     pub shown: Arc<ShownPoints>,
     /// Its analysis.
     pub analysis: Arc<Analysis>,
+    /// The analysis with the simulator's center given, if the truth tells it.
+    pub at_true_center: Option<Arc<Analysis>>,
 }
 
 /// Why there is no analysis.
@@ -123,10 +149,16 @@ impl FruitStages {
             }
         };
         let stages = self.stages.as_ref().filter(is_kept)?;
-        let analysis = stages.analyze_kept(&request.params(&fruit))?;
+        let params = request.params(&fruit);
+        let analysis = stages.analyze_kept(&params)?;
+        let at_true_center = match &fruit.truth {
+            Some(truth) => Some(Arc::new(stages.analyze_kept(&params.with_center(truth.center))?)),
+            None => None,
+        };
         let shown = kept(self.shown.as_ref(), &ShownKey::new(request, &analysis))?;
         Some(AnalyzedFruit {
             analysis: Arc::new(analysis),
+            at_true_center,
             fruit,
             shown,
         })
@@ -175,24 +207,46 @@ impl FruitStages {
             fruit,
             shown,
             analysis,
+            at_true_center: None,
         })
+    }
+
+    /// Adds the analysis with the true center given, where the simulator's truth tells it, to one that
+    /// [`FruitStages::analyze`] has just made.
+    ///
+    /// # Errors
+    /// Returns an error if the work is cancelled.
+    pub fn with_true_center(
+        &mut self,
+        mut analyzed: AnalyzedFruit,
+        observe: &dyn Observe,
+    ) -> Result<AnalyzedFruit, AnalyzeError> {
+        if let (Some(truth), Some(stages)) = (&analyzed.fruit.truth, &mut self.stages) {
+            let params = analyzed.analysis.params.with_center(truth.center);
+            analyzed.at_true_center = match stages.analyze(&params, observe) {
+                Ok(analysis) => Some(Arc::new(analysis)),
+                Err(error) if error.is_cancelled() => return Err(AnalyzeError::Cancelled),
+                Err(_) => None,
+            };
+        }
+        Ok(analyzed)
     }
 
     fn fruit(&mut self, key: FruitKey, watch: &dyn Watch) -> Result<Arc<Fruit>, AnalyzeError> {
         if let Some(fruit) = kept(self.fruit.as_ref(), &key) {
             return Ok(fruit);
         }
-        let file = match kept(self.file.as_ref(), &key.source) {
-            Some(file) => file,
-            None => Arc::new(key.source.read(watch).map_err(|error| match error.kind {
+        let content = match kept(self.content.as_ref(), &key.source) {
+            Some(content) => content,
+            None => key.source.read(watch).map_err(|error| match error.kind {
                 ReadErrorKind::Cancelled => AnalyzeError::Cancelled,
                 _ => AnalyzeError::Fruit(error.into()),
-            })?),
+            })?,
         };
-        self.file = Some((key.source.clone(), file.clone()));
-        let mut fruit = Fruit::from_file_lenient(&file, key.unit, &key.peduncle);
-        if let Source::Bundled(sample) = key.source {
-            fruit = fruit.with_truth(key.source.path(), sample.truth());
+        self.content = Some((key.source.clone(), content.clone()));
+        let mut fruit = Fruit::from_file_lenient(&content.file, key.unit, &key.peduncle);
+        if let Some(truth) = &content.truth {
+            fruit = fruit.with_truth(key.source.path(), truth);
         }
         let fruit = Arc::new(fruit);
         self.fruit = Some((key, fruit.clone()));

@@ -75,7 +75,7 @@ impl Many {
             .map(|(place, entry)| {
                 let path = match &entry.source {
                     Source::File(path) => Some(path.clone()),
-                    Source::Bundled(_) => None,
+                    Source::Bundled(_) | Source::Simulated(_) => None,
                 };
                 let name = entry.source.name();
                 match known.remove(&(name.clone(), path.clone())) {
@@ -263,6 +263,7 @@ impl State {
             &self.many.rows[place].name,
             &walked.fruit,
             &walked.analysis,
+            walked.at_true_center.as_deref(),
             &self.references,
             &self.warnings,
         );

@@ -1,19 +1,27 @@
 //! `axiscope simulate`: clouds with a known axis, with the truth about each in a file beside it.
 
+mod camera;
+mod fruit;
 mod pepper;
+mod surroundings;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use axiscope::files::{self, read_at_most};
+use axiscope::fruit::simulated_files;
 use axiscope::geometry::Unit;
-use axiscope::ply::{self, Encoding, WriteOptions};
-use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, seeds};
+use axiscope::ply::Encoding;
+use axiscope::simulate::{
+    EllipsoidSettings, FruitSettings, PepperSettings, Settings, SimulateError, Simulated, Truth, seeds,
+};
 use clap::{Args, Subcommand};
 use glam::DVec3;
 
 use super::options::{Depths, depths, number, pair, position};
+use super::output::{is_standard_output, say};
 use super::{progress, usage_error};
+use fruit::Fruit;
 use pepper::Pepper;
 
 #[derive(Debug, Args)]
@@ -28,14 +36,16 @@ enum Shape {
     Ellipsoid(Ellipsoid),
     /// A lobed, tapered pepper with a peduncle, as a depth camera sees it
     Pepper(Box<Pepper>),
+    /// A pear, eggplant, cucumber, tomato, apple or ball, as a depth camera sees it
+    Fruit(Box<Fruit>),
 }
 
 /// The number of the clouds, and their files.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 struct Output {
-    /// The PLY file to write, or a folder for several; the truth goes beside it as NAME.truth.json
-    /// [default: pepper.ply or ellipsoid.ply; for several, the folder peppers or ellipsoids]
+    /// The PLY file to write, or a folder for several, or - for standard output; the truth goes beside it as NAME.truth.json
+    /// [default: pepper.ply, ellipsoid.ply or the kind's name; for several, the folder peppers, ellipsoids or the like]
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
     /// Number of clouds, each with its own seed, which follows from --seed
@@ -73,10 +83,18 @@ struct Ellipsoid {
     noise_cm: f64,
 }
 
+/// Sets a field if its option is given.
+fn set<T>(field: &mut T, option: Option<T>) {
+    if let Some(value) = option {
+        *field = value;
+    }
+}
+
 pub(super) fn run(args: &Simulate) -> anyhow::Result<()> {
     match &args.shape {
         Shape::Ellipsoid(args) => ellipsoids(args),
         Shape::Pepper(args) => peppers(args),
+        Shape::Fruit(args) => fruits(args),
     }
 }
 
@@ -125,13 +143,60 @@ fn peppers(args: &Pepper) -> anyhow::Result<()> {
         (format!("pepper_{i:03}"), settings)
     });
     write_all(&args.output, "pepper", &jobs.collect::<Vec<_>>(), |settings| {
-        let simulated = settings.simulate()?;
-        Ok(if args.without_peduncle {
-            simulated.without_peduncle()
-        } else {
-            simulated
-        })
+        Ok(with_peduncle(settings.simulate()?, !args.without_peduncle))
     })
+}
+
+fn fruits(args: &Fruit) -> anyhow::Result<()> {
+    let settings = args.settings()?;
+    let kind = settings.kind.name();
+    let seeds = seeds(args.output.seed, args.output.count as usize);
+    let jobs = seeds.into_iter().enumerate().map(|(i, seed)| {
+        let settings = FruitSettings {
+            seed,
+            ..settings.clone()
+        };
+        (format!("{kind}_{i:03}"), settings)
+    });
+    write_all(&args.output, kind, &jobs.collect::<Vec<_>>(), |settings| {
+        Ok(with_peduncle(settings.simulate()?, !args.without_peduncle))
+    })
+}
+
+fn with_peduncle(simulated: Simulated, is_kept: bool) -> Simulated {
+    if is_kept {
+        simulated
+    } else {
+        simulated.without_peduncle()
+    }
+}
+
+/// The longest file of settings, in bytes.
+const LONGEST_SETTINGS: u64 = 1 << 20;
+
+/// Reads the settings of a truth file, or of a file that holds nothing else; `of_kind` picks those of the kind from
+/// a truth.
+fn read_settings<T: serde::de::DeserializeOwned>(
+    path: &Path,
+    kind: &str,
+    of_kind: impl Fn(Settings) -> Option<T>,
+) -> anyhow::Result<T> {
+    let text = read_at_most(path, LONGEST_SETTINGS).with_context(|| path.display().to_string())?;
+    if let Ok(truth) = serde_json::from_slice::<Truth>(&text) {
+        let other = match &truth.settings {
+            Settings::Ellipsoid(_) => "an ellipsoid's",
+            Settings::Pepper(_) => "a pepper's",
+            Settings::Fruit(_) => "a fruit's of another kind",
+            Settings::Mesh(_) => "a mesh's",
+        };
+        return of_kind(truth.settings).with_context(|| {
+            format!(
+                "{}: these are {other} settings, not those of a {kind}",
+                path.display()
+            )
+        });
+    }
+    serde_json::from_slice(&text).with_context(|| format!("{}: no settings of a {kind}", path.display()))
 }
 
 /// Simulates each job and writes it, one after the other. The same seed gives the same bytes.
@@ -159,12 +224,18 @@ fn write_all<S>(
         };
         let simulated = simulate(settings)?;
         write_cloud(&path, &simulated, output)?;
-        eprintln!(
-            "Wrote {} ({} points) and its truth beside it.",
-            path.display(),
-            simulated.cloud.len()
-        );
+        let (name, points) = (path.display(), simulated.cloud.len());
+        if has_name(&path) {
+            say!("Wrote {name} ({points} points) and its truth beside it.");
+        } else {
+            say!("Wrote {points} points; their truth is written only beside a file.");
+        }
         return Ok(());
+    }
+    if output.out.as_deref().is_some_and(is_standard_output) {
+        return Err(usage_error(
+            "several clouds go into a folder, not to standard output",
+        ));
     }
     let folder = output.out.clone().unwrap_or_else(|| format!("{shape}s").into());
     if folder.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply")) {
@@ -183,7 +254,7 @@ fn write_all<S>(
         bar.inc(1);
     }
     bar.finish_and_clear();
-    eprintln!(
+    say!(
         "Wrote {} clouds with their truths to {}.",
         jobs.len(),
         folder.display()
@@ -191,36 +262,17 @@ fn write_all<S>(
     Ok(())
 }
 
-/// Writes `NAME.ply` and `NAME.truth.json`, each whole or not at all.
+/// Writes `NAME.ply` and `NAME.truth.json`, both whole or not at all; to standard output or a device only the cloud.
 fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::Result<()> {
-    let simulated = simulated.clone().in_unit(output.unit);
-    let truth = &simulated.truth;
-    let comments = [format!(
-        "simulated by axiscope {}, seed {}",
-        truth.program_version, truth.seed
-    )];
-    let mut bytes = Vec::new();
-    let options = WriteOptions {
-        unit: Some(output.unit),
-        comments: &comments,
-        encoding: output.encoding,
-        ..WriteOptions::default()
-    };
-    ply::write(&mut bytes, &simulated.cloud, &options)?;
-    write_whole(path, &bytes)?;
-    let json = serde_json::to_string_pretty(truth)? + "\n";
-    write_whole(&path.with_extension("truth.json"), json.as_bytes())
+    let both = simulated_files(path, simulated, output.unit, output.encoding)?;
+    if !has_name(path) {
+        return super::output::write(path, &both[0].1);
+    }
+    Ok(files::write_all(&both)?)
 }
 
-/// Writes a file under a temporary name and then renames it, so that no reader finds half of it.
-fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let write = || -> std::io::Result<()> {
-        let mut name = path.file_name().unwrap_or_default().to_os_string();
-        name.push(".part");
-        let part = path.with_file_name(name);
-        let mut file = std::fs::File::create(&part)?;
-        file.write_all(bytes)?;
-        std::fs::rename(&part, path)
-    };
-    write().with_context(|| path.display().to_string())
+/// Whether a path names a regular file, there or yet to be written, so that another can stand beside it: not standard
+/// output, a device or a pipe.
+fn has_name(path: &Path) -> bool {
+    !is_standard_output(path) && !path.starts_with("/dev") && !path.exists() || path.is_file()
 }

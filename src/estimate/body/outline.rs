@@ -54,7 +54,7 @@ pub struct Comparison {
 
 impl Outline {
     /// Finds the outline of points relative to their camera, with normals; `None` if they are not ahead of it.
-    pub(super) fn of(points: &[DVec3], normals: &[DVec3]) -> Option<Self> {
+    pub(in crate::estimate) fn of(points: &[DVec3], normals: &[DVec3]) -> Option<Self> {
         let ahead = points.iter().sum::<DVec3>().try_normalize()?;
         // Right and down as far as the file's frame is that of a camera whose y points down.
         let right = DVec3::Y
@@ -130,13 +130,22 @@ impl Outline {
 
     /// Compares a body's outline with the seen one. `size` is the fruit's, in centimeters.
     pub(super) fn compare(&self, body: &Body, size: f64) -> Comparison {
+        self.compare_points(body.points(), size)
+    }
+
+    /// Compares the outline of points all over a body, about two degrees apart, with the seen one.
+    pub(in crate::estimate) fn compare_points(
+        &self,
+        points: impl Iterator<Item = DVec3>,
+        size: f64,
+    ) -> Comparison {
         /// The expected excess and its standard deviation, in units of the fruit's size: edges are not measured.
         const EXPECTED: (f64, f64) = (0.02, 0.04);
         /// The bound between squared and linear loss, and the largest loss.
         const HUBER: f64 = 2.0;
         const LARGEST: f64 = 12.0;
         let mut reaches = vec![0.0_f64; SECTORS];
-        for point in body.points() {
+        for point in points {
             if let Some((at, _)) = self.image(point) {
                 let offset = at - self.middle;
                 let reach = &mut reaches[sector(offset)];

@@ -161,7 +161,7 @@ impl Search<'_> {
         };
         let body = Body::new(fit.pose, fit.beta);
         let outline = self.outline.map(|seen| seen.compare(&body, size));
-        let prior_cost = prior_cost(self.prior, body.pose);
+        let prior_cost = self.prior.cost(body.pose.axis(), body.pose.center);
         let misfit = outline.as_ref().map_or(0.0, |o| o.misfit);
         Ok(Some(Candidate {
             cost: fit.cost + outline_weight * misfit + prior_cost,
@@ -202,21 +202,4 @@ fn quantile(ascending: &[f64], share: f64) -> f64 {
     let at = share * last as f64;
     let (low, part) = (at.floor() as usize, at.fract());
     ascending[low] + part * (ascending[(low + 1).min(last)] - ascending[low])
-}
-
-/// The cost of an axis by the assumption that was asked for.
-fn prior_cost(prior: Prior, pose: Pose) -> f64 {
-    match prior {
-        Prior::None => 0.0,
-        Prior::Lean { free_deg, sd_deg } => {
-            let lean_deg = 90.0 - angle_between_lines_rad(pose.axis(), pose.center).to_degrees();
-            0.5 * ((lean_deg - free_deg).max(0.0) / sd_deg).powi(2)
-        }
-        Prior::Up => {
-            /// The standard deviation of fruits' axes from upright, in degrees.
-            const SPREAD_DEG: f64 = 25.0;
-            let from_up_deg = angle_between_lines_rad(pose.axis(), DVec3::Y).to_degrees();
-            0.5 * (from_up_deg / SPREAD_DEG).powi(2)
-        }
-    }
 }

@@ -87,6 +87,7 @@ fn analyze_variant(
     u: usize,
 ) -> Result<PepperVariant, ReproduceError> {
     let filters = Filters {
+        keep_strays: false,
         outliers: Some(OutlierFilter {
             neighbors: const { NonZeroUsize::new(OUTLIER_NEIGHBORS).unwrap() },
             std_ratio: OUTLIER_STD,

@@ -158,6 +158,7 @@ fn name(source: &Source) -> String {
     match source {
         Source::File(_) => source.name(),
         Source::Bundled(sample) => sample.title().into(),
+        Source::Simulated(_) => "Simulated pepper".into(),
     }
 }
 

@@ -15,6 +15,8 @@ pub enum Asked {
     Open(Vec<PathBuf>),
     /// The path for a picture of the view, and its size in pixels.
     SaveImage(PathBuf, [u32; 2]),
+    /// The path for the simulated pepper.
+    SaveSimulated(PathBuf),
     /// A command with a path for the peduncle.
     Peduncle(PeduncleCommand),
     /// The folder that gets a new one with the results.
@@ -51,6 +53,18 @@ pub fn save_image(ctx: &egui::Context, answers: &Sender<Asked>, name: &str, size
         .save_file();
     wait(ctx, answers, async move {
         Some(Asked::SaveImage(path_of(&answer.await?), size_px))
+    });
+}
+
+/// Asks for the path of the simulated pepper.
+pub fn save_simulated(ctx: &egui::Context, answers: &Sender<Asked>) {
+    let answer = AsyncFileDialog::new()
+        .set_title("Save the simulated pepper, and its truth beside it")
+        .set_file_name("simulated_pepper.ply")
+        .add_filter("Point clouds (PLY)", &["ply"])
+        .save_file();
+    wait(ctx, answers, async move {
+        Some(Asked::SaveSimulated(path_of(&answer.await?)))
     });
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::Window;
 use super::dialogs::Asked;
 use crate::app::many::ManyCommand;
-use crate::app::{Command, PeduncleCommand};
+use crate::app::{Command, PeduncleCommand, SimulatorCommand};
 use crate::fruit::companion_path;
 use crate::ui::action::Act;
 
@@ -32,6 +32,7 @@ impl Window {
                 Asked::Open(paths) => Command::Open(paths),
                 Asked::SaveImage(path, size_px) => Command::SaveImage { path, size_px },
                 Asked::Peduncle(command) => Command::Peduncle(command),
+                Asked::SaveSimulated(path) => Command::Simulate(SimulatorCommand::Save(path)),
                 Asked::SaveResults(into) => Command::Many(ManyCommand::SaveResults(into)),
                 Asked::Failed(text) => Command::Say { is_error: true, text },
             }));

@@ -2,7 +2,9 @@
 
 mod camera;
 mod ellipsoid;
+mod fruit;
 mod pepper;
+mod scans;
 mod seeds;
 mod truth;
 
@@ -52,7 +54,7 @@ fn labelled(simulated: &Simulated, label: i32) -> Vec<DVec3> {
 fn settings_of(truth: &Truth) -> &PepperSettings {
     match &truth.settings {
         Settings::Pepper(settings) => settings,
-        Settings::Ellipsoid(_) => panic!("not a pepper"),
+        _ => panic!("not a pepper"),
     }
 }
 

@@ -177,6 +177,23 @@ fn rows_are_in_the_order_of_the_scores_and_can_be_sorted() {
 }
 
 #[test]
+fn the_ranking_takes_the_error_apart_and_leads_to_the_nearest_candidate() {
+    let app = app_with(Sample::MissedPepper);
+    let parts = app.state().error_breakdown().expect("it has a truth");
+    let mut harness = harness(app, ranking::show, vec2(640.0, 300.0), Theme::Dark, 1.0);
+    let error = parts.error_deg.expect("an axis");
+    harness.get_by_label(&format!("Axis error {error:.1}° ="));
+    let choice = parts.choice_part_deg.expect("an axis");
+    harness.get_by_label(&format!("{choice:.1}° choice"));
+    let nearest = &parts.nearest_candidate;
+    harness
+        .get_by_label(&format!("g {}, h {}", nearest.g, nearest.h))
+        .click();
+    let wanted = at(nearest.g as usize, nearest.h as usize);
+    assert_eq!(asked(&mut harness).last(), Some(&wanted));
+}
+
+#[test]
 fn a_plane_chosen_elsewhere_comes_into_view_and_a_scroll_by_hand_stays() {
     let mut app = app_with(Sample::Pepper);
     set(&mut app, |request| request.params.u = 12);

@@ -44,6 +44,7 @@ pub(super) fn file_actions(state: &State) -> Vec<Action> {
         .when(current.is_some()),
         Action::window("Quit", File, WindowAct::Quit).key(CTRL, Key::Q),
     ];
+    actions.push(Action::window("Simulate a pepper …", File, WindowAct::Simulate));
     actions.extend(Sample::ALL.map(|sample| {
         Action::app(
             File,
