@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::Context;
+use axiscope::estimate::{EstimateError, EstimateSettings, Estimator, estimate};
 use axiscope::evaluate::{
-    AnalysisReport, ErrorBreakdown, Examination, Timings, TruthChoice, examine, peduncle_disagreement_deg,
-    reference_of,
+    AnalysisReport, ErrorBreakdown, Examination, TimedEstimate, Timings, TruthChoice, examine,
+    peduncle_disagreement_deg, reference_of, surface_of,
 };
 use axiscope::fruit::Fruit;
 use axiscope::geometry::Unit;
@@ -17,7 +18,7 @@ use axiscope::peduncle::PeduncleSource;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 
-use super::options::AnalysisOptions;
+use super::options::{AnalysisOptions, EstimatorOptions};
 use super::output::Printable;
 use super::progress::StageClock;
 
@@ -30,6 +31,8 @@ pub(super) struct Analyze {
     truth: TruthChoice,
     #[command(flatten)]
     analysis: AnalysisOptions,
+    #[command(flatten)]
+    estimators: EstimatorOptions,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -45,18 +48,21 @@ enum Format {
 
 pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
     let started = Instant::now();
-    let request = args.analysis.request();
+    let mut request = args.analysis.request();
+    request.estimates = args.estimators.settings(&[Estimator::Paper, Estimator::Body]);
     let clock = StageClock::new();
     let fruit = Fruit::read_watched(&args.cloud, &request, &clock)?;
     let read = milliseconds_since(started);
     let examined = examine(fruit, &request, &clock);
     let times = clock.finish();
     let examined = examined.with_context(|| args.cloud.display().to_string())?;
+    let of_analysis = milliseconds_since(started) - read;
     // Its times are not those of the analysis.
     let clock = StageClock::new();
     let examined = examined.with_true_center(&clock);
     clock.finish();
     let examined = examined?;
+    let estimates = timed_estimates(&examined, &request.estimates, of_analysis)?;
     let timings = Timings {
         read,
         normals: times.milliseconds(Stage::Normals),
@@ -65,7 +71,7 @@ pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
         total: milliseconds_since(started),
     };
     match args.format {
-        Format::Text => write_text(&mut Printable::stdout(), args, &examined, &timings)?,
+        Format::Text => write_text(&mut Printable::stdout(), args, &examined, &timings, &estimates)?,
         Format::Json => {
             let report = AnalysisReport::new(
                 &args.cloud,
@@ -74,6 +80,7 @@ pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
                 &examined,
                 args.truth,
                 timings,
+                &estimates,
             );
             // The text is complete before its first byte goes out, so that a reader gets all of it or nothing.
             let text = serde_json::to_string_pretty(&report)?;
@@ -87,11 +94,69 @@ fn milliseconds_since(start: Instant) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
 }
 
+/// Runs the estimators, each with its time: `of_analysis` milliseconds for the paper's, which has run already, and for
+/// the others that of the surface too, which all of them need.
+fn timed_estimates(
+    examined: &Examination,
+    settings: &EstimateSettings,
+    of_analysis: f64,
+) -> anyhow::Result<Vec<TimedEstimate>> {
+    let started = Instant::now();
+    let is_fitted = settings.estimators.iter().any(|&e| e != Estimator::Paper);
+    let surface = if is_fitted {
+        surface_of(examined, &())
+    } else {
+        Err(EstimateError::NoFit)
+    };
+    let of_surface = milliseconds_since(started);
+    let mut estimates = Vec::new();
+    for &estimator in &settings.estimators {
+        let started = Instant::now();
+        let estimate = estimate(estimator, &examined.analysis, &surface, settings.prior, &())?;
+        let before = if estimator == Estimator::Paper {
+            of_analysis
+        } else {
+            of_surface
+        };
+        let ms = before + milliseconds_since(started);
+        estimates.push(TimedEstimate { estimate, ms });
+    }
+    Ok(estimates)
+}
+
+/// Describes an estimate in one line.
+fn described(timed: &TimedEstimate, examined: &Examination) -> String {
+    let estimate = &timed.estimate;
+    let Some(axis) = &estimate.axis else {
+        return format!("none: {}", estimate.warnings.join(" "));
+    };
+    let mut parts = vec![direction(axis.direction)];
+    if let Some(confidence) = estimate.confidence {
+        parts.push(format!("confidence {confidence:.2}"));
+    }
+    if estimate.ambiguous {
+        parts.push("ambiguous".into());
+    }
+    if let Some(error_deg) = timed.error_deg(&examined.references) {
+        parts.push(format!("error {error_deg:.2}°"));
+    }
+    if let (Some(share), Some(occlusion)) = (estimate.seen_share, estimate.occlusion) {
+        parts.push(format!(
+            "{:.0} % seen (occlusion: {})",
+            100.0 * share,
+            occlusion.name()
+        ));
+    }
+    parts.push(format!("{:.0} ms", timed.ms));
+    parts.join(", ")
+}
+
 fn write_text(
     out: &mut impl Write,
     args: &Analyze,
     examined: &Examination,
     timings: &Timings,
+    estimates: &[TimedEstimate],
 ) -> std::io::Result<()> {
     let Examination {
         fruit,
@@ -149,6 +214,13 @@ fn write_text(
         None => row(out, "Symmetry axis", "none")?,
     }
     write_references(out, examined)?;
+    for timed in estimates {
+        row(
+            out,
+            &format!("Axis by {}", timed.estimate.estimator.name()),
+            &described(timed, examined),
+        )?;
+    }
     let truth = reference_of(&examined.references, args.truth);
     if let Some(parts) = truth.and_then(|truth| examined.error_breakdown(truth)) {
         write_parts(out, &parts, analysis.ranking.order().len())?;

@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use axiscope::estimate::{EstimateSettings, Estimator, Prior};
 use axiscope::fruit::PeduncleChoice;
 use axiscope::fruit::Request;
 use axiscope::geometry::Unit;
@@ -85,6 +86,54 @@ pub(super) struct AnalysisOptions {
     pub(super) max_points: usize,
 }
 
+/// Options of the commands that run several estimators.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Estimators")]
+pub(super) struct EstimatorOptions {
+    /// Estimators of the axis, separated by commas, or all
+    #[arg(long = "estimator", value_name = "NAMES", value_parser = estimators)]
+    estimators: Option<Estimators>,
+    /// Assumption of the fitted estimators about the axis: none, up, or lean=FREE,SD: degrees towards the camera or away that are free, and the standard deviation of more
+    #[arg(long, value_name = "PRIOR", default_value_t)]
+    prior: Prior,
+}
+
+impl EstimatorOptions {
+    /// Returns the settings, with these estimators unless others are asked for.
+    pub(super) fn settings(&self, usual: &[Estimator]) -> EstimateSettings {
+        EstimateSettings {
+            estimators: self
+                .estimators
+                .as_ref()
+                .map_or(usual.to_vec(), |asked| asked.0.clone()),
+            prior: self.prior,
+        }
+    }
+}
+
+/// Estimators, each once, in the order of reports.
+#[derive(Debug, Clone)]
+struct Estimators(Vec<Estimator>);
+
+fn estimators(text: &str) -> Result<Estimators, String> {
+    if text == "all" {
+        return Ok(Estimators(Estimator::ALL.to_vec()));
+    }
+    let named = text
+        .split(',')
+        .map(|name| Estimator::from_str(name.trim(), false));
+    let mut named = named.collect::<Result<Vec<_>, _>>().map_err(|_| {
+        let names: Vec<&str> = Estimator::ALL.iter().map(|e| e.name()).collect();
+        format!(
+            "expected all, or some of {}, separated by commas",
+            names.join(", ")
+        )
+    })?;
+    named.sort_unstable();
+    named.dedup();
+    Ok(Estimators(named))
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum CenterOption {
     Equidistant,
@@ -120,6 +169,7 @@ impl AnalysisOptions {
             without_peduncle: self.without_peduncle,
             normals: self.normals,
             params: self.params(),
+            estimates: EstimateSettings::default(),
         }
     }
 

@@ -13,12 +13,17 @@ mod estimator;
 mod least_squares;
 mod outcome;
 mod paper;
+mod plane;
+mod revolution;
+mod robust;
 mod sample;
+mod search;
+mod superquadric;
 mod surface;
 mod view;
 
 pub use directions::half_sphere;
-pub use estimator::{Estimator, Prior, estimate};
+pub use estimator::{EstimateSettings, Estimator, InvalidPrior, Prior, estimate};
 pub use least_squares::{LeastSquares, Linearized, Minimum, Options, minimize};
 use outcome::lead_over;
 pub use outcome::{Alternative, Estimate, EstimateError, Occlusion};

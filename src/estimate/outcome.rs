@@ -83,7 +83,7 @@ pub struct Estimate {
     pub lead: Option<f64>,
     /// The other axes, the best first.
     pub alternatives: Vec<Alternative>,
-    /// The share of the fruit's outline that is seen, 0 to 1, by the area within it in the image; `None` if it is not
+    /// The share of the fruit's cross-section in the image that is seen, 0 to 1, to within about 0.04; `None` if it is not
     /// known.
     pub seen_share: Option<f64>,
     /// The class of `seen_share`; `None` if it is not known.

@@ -90,6 +90,11 @@ impl Surface {
         self.unit
     }
 
+    /// Returns a position in the file's unit and frame as this room has it.
+    pub fn of_file(&self, position: DVec3) -> DVec3 {
+        (position - self.viewpoint) * self.unit.in_cm()
+    }
+
     /// Returns a position of this room in the file's unit and frame.
     pub fn in_file(&self, position_cm: DVec3) -> DVec3 {
         self.viewpoint + position_cm / self.unit.in_cm()

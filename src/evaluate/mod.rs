@@ -8,6 +8,7 @@
 
 mod checksummed_lines;
 mod error_breakdown;
+mod estimates;
 mod examine;
 mod file_hashes;
 mod outcome;
@@ -29,6 +30,7 @@ mod tags;
 mod thumbnails;
 
 pub use error_breakdown::{ErrorBreakdown, GivenCenter, NearestPlane};
+pub use estimates::{EstimateInRow, estimates_of, surface_of};
 pub use examine::{
     Examination, TruthChoice, collect_references, examine, examine_file, peduncle_disagreement_deg,
     reference_of,
@@ -37,7 +39,7 @@ pub use file_hashes::KnownHash;
 pub use outcome::{KnownAxis, Outcome};
 #[cfg(feature = "window")]
 pub use pictures::pictures_of_worst;
-pub use report::{AnalysisReport, SCHEMA, Timings};
+pub use report::{AnalysisReport, SCHEMA, TimedEstimate, Timings};
 #[cfg(feature = "reports")]
 pub use results::{ResultsError, TableError, WorstPicture, csv, parquet, result_files, worst_first};
 pub use row::Row;

@@ -2,12 +2,15 @@
 
 use std::path::Path;
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    ErrorBreakdown, Examination, Row, TruthChoice, examine_file, peduncle_disagreement_deg, reference_of,
+    ErrorBreakdown, EstimateInRow, Examination, Row, TruthChoice, estimates_of, examine_file,
+    peduncle_disagreement_deg, reference_of,
 };
 use crate::fruit::{Fruit, Request};
+use crate::geometry::angle_between_lines_rad;
 use crate::method::{Analysis, AxisEstimate, CandidateAxes, Observe, axis_error_rad};
 use crate::parallel::Cancelled;
 
@@ -142,7 +145,11 @@ impl Outcome {
         match examine_file(path, request, observe)? {
             Ok(examined) => {
                 let examined = examined.with_true_center(observe)?;
-                Ok((Self::of(file, &examined), Some(examined)))
+                let mut outcome = Self::of(file, &examined);
+                let estimates = estimates_of(&examined, &request.estimates, observe)?;
+                outcome.row.estimates = estimates.iter().map(EstimateInRow::of).collect();
+                outcome.row = outcome.against(TruthChoice::Auto);
+                Ok((outcome, Some(examined)))
             }
             Err(reason) => Ok((Self::failed(file, reason), None)),
         }
@@ -200,7 +207,16 @@ impl Outcome {
     /// Returns the row against the chosen reference.
     pub fn against(&self, choice: TruthChoice) -> Row {
         let reference = self.reference(choice);
+        let error_deg = |axis: [f64; 3]| {
+            let direction = DVec3::from_array(reference?.direction);
+            Some(angle_between_lines_rad(DVec3::from_array(axis), direction).to_degrees())
+        };
+        let mut estimates = self.row.estimates.clone();
+        for estimate in &mut estimates {
+            estimate.error_deg = estimate.axis.and_then(error_deg);
+        }
         Row {
+            estimates,
             truth: reference.map(|r| r.name.clone()),
             truth_axis: reference.map(|r| r.direction),
             error_deg: reference.and_then(|r| r.error_deg),

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::{ErrorBreakdown, Examination, TruthChoice, peduncle_disagreement_deg, reference_of};
+use crate::estimate::{Alternative, Estimate, Occlusion};
 use crate::fruit::Request;
 use crate::geometry::Unit;
 use crate::method::{Aggregation, AxisEstimate, CenterMethod, NormalSource, Params, axis_error_rad};
@@ -28,6 +29,8 @@ pub struct AnalysisReport {
     error_parts: Option<ErrorBreakdown>,
     warnings: Vec<String>,
     timings_ms: Timings,
+    prior: String,
+    estimates: Vec<EstimateReport>,
 }
 
 /// The durations of the stages in milliseconds.
@@ -130,6 +133,7 @@ impl AnalysisReport {
         examined: &Examination,
         truth: TruthChoice,
         timings_ms: Timings,
+        estimates: &[TimedEstimate],
     ) -> Self {
         let Examination {
             fruit,
@@ -184,16 +188,92 @@ impl AnalysisReport {
                 score: best.score_cm,
                 runner_up_score: best.runner_up.map(|(_, score)| score),
             }),
-            axis: analysis.axis.as_ref().map(|axis| AxisReport {
-                origin: axis.origin.to_array(),
-                direction: axis.direction.to_array(),
-            }),
+            axis: analysis.axis.as_ref().map(AxisReport::new),
             reference: reference.map(reported),
             references: references.iter().map(reported).collect(),
             peduncle_disagreement_deg: peduncle_disagreement_deg(references),
             error_parts: reference_of(references, truth).and_then(|r| examined.error_breakdown(r)),
             warnings: warnings.clone(),
             timings_ms,
+            prior: request.estimates.prior.to_string(),
+            estimates: estimates
+                .iter()
+                .map(|timed| EstimateReport::new(timed, references))
+                .collect(),
+        }
+    }
+}
+
+/// An estimate, and how long it took.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimedEstimate {
+    /// The estimate.
+    pub estimate: Estimate,
+    /// The time that it takes alone, with all that it builds on, in milliseconds.
+    pub ms: f64,
+}
+
+impl TimedEstimate {
+    /// Returns the angle in degrees to the reference that [`TruthChoice::Auto`] chooses; `None` without an axis or a
+    /// reference.
+    pub fn error_deg(&self, references: &[AxisEstimate]) -> Option<f64> {
+        let axis = self.estimate.axis.as_ref()?;
+        let reference = reference_of(references, TruthChoice::Auto)?;
+        Some(axis_error_rad(axis, reference).to_degrees())
+    }
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct EstimateReport {
+    name: &'static str,
+    axis: Option<AxisReport>,
+    center: Option<[f64; 3]>,
+    confidence: Option<f64>,
+    ambiguous: bool,
+    lead: Option<f64>,
+    error_deg: Option<f64>,
+    alternatives: Vec<AlternativeReport>,
+    seen_share: Option<f64>,
+    occlusion: Option<Occlusion>,
+    warnings: Vec<String>,
+    ms: f64,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct AlternativeReport {
+    direction: [f64; 3],
+    cost: f64,
+}
+
+impl EstimateReport {
+    fn new(timed: &TimedEstimate, references: &[AxisEstimate]) -> Self {
+        let estimate = &timed.estimate;
+        let alternative = |a: &Alternative| AlternativeReport {
+            direction: a.direction.to_array(),
+            cost: a.cost,
+        };
+        Self {
+            name: estimate.estimator.name(),
+            axis: estimate.axis.as_ref().map(AxisReport::new),
+            center: estimate.center.map(|center| center.to_array()),
+            confidence: estimate.confidence,
+            ambiguous: estimate.ambiguous,
+            lead: estimate.lead,
+            error_deg: timed.error_deg(references),
+            alternatives: estimate.alternatives.iter().map(alternative).collect(),
+            seen_share: estimate.seen_share,
+            occlusion: estimate.occlusion,
+            warnings: estimate.warnings.clone(),
+            ms: timed.ms,
+        }
+    }
+}
+
+impl AxisReport {
+    fn new(axis: &AxisEstimate) -> Self {
+        Self {
+            origin: axis.origin.to_array(),
+            direction: axis.direction.to_array(),
         }
     }
 }

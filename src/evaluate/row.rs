@@ -4,7 +4,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::ErrorBreakdown;
+use super::{ErrorBreakdown, EstimateInRow};
+use crate::estimate::Estimator;
 use crate::geometry::Unit;
 
 /// The results of one cloud against one reference axis. Values that do not exist are `None`; a cloud that failed has
@@ -63,6 +64,9 @@ pub struct Row {
     /// The names of the annotators who set an axis of this cloud, separated by commas.
     #[serde(default)]
     pub annotators: String,
+    /// The estimates that were asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub estimates: Vec<EstimateInRow>,
     /// The warnings, one sentence after another.
     pub warnings: String,
     /// The reason why there is no error, as a clause.
@@ -102,11 +106,17 @@ impl Row {
             error_parts: None,
             coverage: None,
             annotators: String::new(),
+            estimates: Vec::new(),
             warnings: String::new(),
             failure: Some(failure),
             tags: String::new(),
             note: String::new(),
         }
+    }
+
+    /// Returns the estimate of an estimator, if it was asked for.
+    pub fn estimate(&self, estimator: Estimator) -> Option<&EstimateInRow> {
+        self.estimates.iter().find(|e| e.estimator == estimator)
     }
 
     /// Returns the path of a file relative to `folder`, with forward slashes.

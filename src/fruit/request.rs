@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Fruit, PeduncleChoice};
+use crate::estimate::EstimateSettings;
 use crate::geometry::Unit;
 use crate::method::{NormalSource, Params, Preset};
 
@@ -19,6 +20,14 @@ pub struct Request {
     pub normals: Option<NormalSource>,
     /// All other parameters. Their unit and source of normals are replaced by [`Request::params`].
     pub params: Params,
+    /// The estimators to run beside the analysis; none by default.
+    #[serde(default, skip_serializing_if = "is_empty")]
+    pub estimates: EstimateSettings,
+}
+
+/// Whether no estimator is asked for. Such requests are stored as before there were any.
+fn is_empty(settings: &EstimateSettings) -> bool {
+    settings.estimators.is_empty()
 }
 
 impl Default for Request {
@@ -30,6 +39,7 @@ impl Default for Request {
             without_peduncle: false,
             normals: None,
             params: Params::new(Preset::AsIntended, Unit::Centimeter),
+            estimates: EstimateSettings::default(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A request as options of the command line.
 
 use super::{PeduncleChoice, Request};
+use crate::estimate::Prior;
 use crate::method::{Aggregation, CenterMethod, NormalSource, Params, Preset, RandomSearch, TAU_CM_PER_RAD};
 
 impl Request {
@@ -77,6 +78,13 @@ impl Request {
         }
         if params.filters.max_points != defaults.filters.max_points {
             add("--max-points", params.filters.max_points.to_string());
+        }
+        if !self.estimates.estimators.is_empty() {
+            let names: Vec<&str> = self.estimates.estimators.iter().map(|e| e.name()).collect();
+            add("--estimator", names.join(","));
+            if self.estimates.prior != Prior::default() {
+                add("--prior", self.estimates.prior.to_string());
+            }
         }
         if params.filters.keep_strays {
             words.push("--keep-strays".into());

@@ -74,3 +74,13 @@ pub(super) fn each_within(
         .into_iter()
         .try_for_each(|component| within(name, component, range, allowed))
 }
+
+/// Returns an error for a value outside `low..=high`, unless it is left to chance.
+pub(super) fn set_within(
+    name: &'static str,
+    value: Option<f64>,
+    range: (f64, f64),
+    allowed: &'static str,
+) -> Result<(), SimulateError> {
+    value.map_or(Ok(()), |value| within(name, value, range, allowed))
+}

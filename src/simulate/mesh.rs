@@ -132,6 +132,14 @@ impl Mesh {
             .extend(other.triangles.iter().map(|t| t.map(|i| i + offset)));
     }
 
+    /// Moves each corner by a function of its place, and computes the normals anew.
+    pub(super) fn deformed(mut self, place: impl Fn(DVec3) -> DVec3) -> Self {
+        for p in &mut self.positions {
+            *p = place(*p);
+        }
+        self.finish()
+    }
+
     /// Moves the surface from the frame into that of a camera in it.
     pub(super) fn seen_from(self, view: View) -> Self {
         let to_camera = view.rotation.transpose();

@@ -1,5 +1,5 @@
-//! Clouds whose axis is known: the paper's ellipsoid, a pepper, and the depth camera that looks at them, from one place or
-//! from several.
+//! Clouds whose axis is known: the paper's ellipsoid, a pepper, fruits of other kinds, and the depth camera that looks at
+//! them, from one place or from several.
 //!
 //! A pure room: settings go in, a [`Simulated`] comes out, and the same settings always give the
 //! same points to the bit. Everything is made in centimeters in the camera's frame (x right, y down,
@@ -17,12 +17,15 @@ mod coverage;
 mod depth_camera;
 mod ellipsoid;
 mod error;
+mod fruit;
 mod mesh;
 mod mesh_scan;
 mod pepper;
 mod random;
 mod scan;
 mod seen_points;
+mod shape;
+mod surroundings;
 mod trajectory;
 mod triangle_mesh;
 mod truth;
@@ -31,10 +34,13 @@ mod views;
 pub use depth_camera::DepthCamera;
 pub use ellipsoid::EllipsoidSettings;
 pub use error::SimulateError;
+pub use fruit::{FruitKind, FruitSettings};
 pub use mesh_scan::{MeshScanSettings, ScannedMesh};
-pub use pepper::{FruitColor, PepperSettings};
+pub use pepper::PepperSettings;
 pub use random::seeds;
 pub use seen_points::seen_points;
+pub use shape::FruitColor;
+pub use surroundings::Surroundings;
 pub use trajectory::{TrajectoryError, parse_trajectory};
 pub use triangle_mesh::{MeshError, TriangleMesh};
 pub use truth::{Pose, Settings, Simulated, TrueAxis, Truth};

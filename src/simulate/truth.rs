@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::{EllipsoidSettings, MeshScanSettings, PepperSettings};
+use super::{EllipsoidSettings, FruitSettings, MeshScanSettings, PepperSettings};
 use crate::geometry::{Cloud, Unit};
 
 /// A cloud and the truth about it.
@@ -60,6 +60,8 @@ pub enum Settings {
     Ellipsoid(EllipsoidSettings),
     /// A pepper before a depth camera.
     Pepper(Box<PepperSettings>),
+    /// A fruit of another kind before a depth camera.
+    Fruit(Box<FruitSettings>),
     /// A mesh before a depth camera.
     Mesh(Box<MeshScanSettings>),
 }
@@ -67,7 +69,7 @@ pub enum Settings {
 /// The truth about a simulated cloud: the content of a `.truth.json` file.
 ///
 /// Lengths are in [`Truth::unit`], the cloud's own, except in the settings, whose names say `_cm`.
-/// In JSON the settings are two fields: `kind` (`"ellipsoid"`, `"pepper"` or `"mesh"`) and `settings`.
+/// In JSON the settings are two fields: `kind` (`"ellipsoid"`, `"pepper"`, `"fruit"` or `"mesh"`) and `settings`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
     /// [`Truth::SCHEMA`].

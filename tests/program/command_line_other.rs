@@ -181,3 +181,30 @@ fn help_completions_and_the_manual_name_every_command() {
     }
     assert!(manual.out.contains("partner"), "with each command's options");
 }
+
+#[test]
+fn simulated_fruits_of_a_kind_are_made_again_from_their_truth() {
+    let folder = TempDir::new().unwrap();
+    let set = simulate(&folder, "fruit --kind apple --seed 4 --count 2", "set");
+    let truth_file = set.join("apple_001.truth.json");
+    let truth: Value = serde_json::from_str(&std::fs::read_to_string(&truth_file).unwrap()).unwrap();
+    assert_eq!(truth["settings"]["kind"], "apple");
+    let again = format!(
+        "fruit --seed {} --settings {}",
+        truth["seed"],
+        truth_file.display()
+    );
+    let again = simulate(&folder, &again, "again.ply");
+    let read = |path: &Path| std::fs::read(path).unwrap();
+    assert_eq!(read(&again), read(&set.join("apple_001.ply")));
+    assert_eq!(
+        read(&again.with_extension("truth.json")),
+        read(&truth_file),
+        "the truth, too"
+    );
+
+    assert_eq!(run(["simulate", "fruit"]).status, 2, "a kind is needed");
+    let other = run(["simulate", "pepper", "--settings", truth_file.to_str().unwrap()]);
+    assert_eq!(other.status, 1);
+    assert!(other.err.contains("not those of a pepper"), "{}", other.err);
+}

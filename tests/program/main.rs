@@ -7,6 +7,7 @@ mod agreeing;
 mod annotating_killed;
 mod command_line;
 mod command_line_other;
+mod estimating;
 mod evaluating;
 mod evaluating_parts;
 mod evaluating_peduncle;

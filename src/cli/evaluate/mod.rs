@@ -16,7 +16,7 @@ use axiscope::files::write_all;
 use axiscope::parallel::{Watch, map_pieces};
 use clap::Args;
 
-use super::options::AnalysisOptions;
+use super::options::{AnalysisOptions, EstimatorOptions};
 use super::output::{Printable, say};
 use super::progress::CountingBar;
 use sweep::SweepOption;
@@ -50,6 +50,8 @@ pub(super) struct Evaluate {
     pictures: usize,
     #[command(flatten)]
     analysis: AnalysisOptions,
+    #[command(flatten)]
+    estimators: EstimatorOptions,
 }
 
 /// One of several equal parts of a list.
@@ -95,7 +97,8 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
         clouds = clouds.into_iter().skip(index - 1).step_by(of).collect();
     }
     std::fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
-    let request = args.analysis.request();
+    let mut request = args.analysis.request();
+    request.estimates = args.estimators.settings(&[]);
     let rows_folder = args.out.join("rows");
     std::fs::create_dir_all(&rows_folder).with_context(|| rows_folder.display().to_string())?;
     let store = RowStore::in_folder(rows_folder, StoreKind::Record);

@@ -1,23 +1,28 @@
 //! `axiscope simulate`: clouds with a known axis, with the truth about each in a file beside it.
 
 mod camera;
+mod fruit;
 mod pepper;
 mod scan;
+mod surroundings;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use axiscope::files;
+use axiscope::files::{self, read_at_most};
 use axiscope::fruit::simulated_files;
 use axiscope::geometry::{Cloud, Unit};
 use axiscope::ply::Encoding;
-use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, Truth, seeds};
+use axiscope::simulate::{
+    EllipsoidSettings, FruitSettings, PepperSettings, Settings, SimulateError, Simulated, Truth, seeds,
+};
 use clap::{Args, Subcommand};
 use glam::DVec3;
 
 use super::options::{Depths, depths, number, pair, position};
 use super::output::{is_standard_output, say};
 use super::{progress, usage_error};
+use fruit::Fruit;
 use pepper::Pepper;
 use scan::Scan;
 
@@ -35,6 +40,8 @@ enum Shape {
     Pepper(Box<Pepper>),
     /// A mesh from a file, as a depth camera sees it
     Scan(Box<Scan>),
+    /// A pear, eggplant, cucumber, tomato, apple or ball, as a depth camera sees it
+    Fruit(Box<Fruit>),
 }
 
 /// The number of the clouds, and their files.
@@ -42,7 +49,7 @@ enum Shape {
 #[command(next_help_heading = "Output")]
 struct Output {
     /// The PLY file to write, or a folder for several, or - for standard output; the truth goes beside it as NAME.truth.json
-    /// [default: pepper.ply or ellipsoid.ply; for several, the folder peppers or ellipsoids]
+    /// [default: pepper.ply, ellipsoid.ply or the kind's name; for several, the folder peppers, ellipsoids or the like]
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
     /// Number of clouds, each with its own seed, which follows from --seed
@@ -100,6 +107,7 @@ pub(super) fn run(args: &Simulate) -> anyhow::Result<()> {
         Shape::Ellipsoid(args) => ellipsoids(args),
         Shape::Pepper(args) => peppers(args),
         Shape::Scan(args) => scan::run(args),
+        Shape::Fruit(args) => fruits(args),
     }
 }
 
@@ -145,12 +153,34 @@ fn peppers(args: &Pepper) -> anyhow::Result<()> {
         (format!("pepper_{i:03}"), settings)
     });
     write_all(&args.output, "pepper", &jobs.collect::<Vec<_>>(), |settings| {
-        let mut simulated = settings.simulate()?;
-        if args.without_peduncle {
-            simulated = simulated.without_peduncle();
-        }
+        let simulated = with_peduncle(settings.simulate()?, !args.without_peduncle);
         Ok(of_simulated(simulated, args.unit.unit))
     })
+}
+
+fn fruits(args: &Fruit) -> anyhow::Result<()> {
+    let settings = args.settings()?;
+    let kind = settings.kind.name();
+    let seeds = seeds(args.output.seed, args.output.count as usize);
+    let jobs = seeds.into_iter().enumerate().map(|(i, seed)| {
+        let settings = FruitSettings {
+            seed,
+            ..settings.clone()
+        };
+        (format!("{kind}_{i:03}"), settings)
+    });
+    write_all(&args.output, kind, &jobs.collect::<Vec<_>>(), |settings| {
+        let simulated = with_peduncle(settings.simulate()?, !args.without_peduncle);
+        Ok(of_simulated(simulated, args.unit.unit))
+    })
+}
+
+fn with_peduncle(simulated: Simulated, is_kept: bool) -> Simulated {
+    if is_kept {
+        simulated
+    } else {
+        simulated.without_peduncle()
+    }
 }
 
 /// A cloud with its unit, and the truth about it, where there is one.
@@ -169,6 +199,34 @@ fn of_simulated(simulated: Simulated, unit: Unit) -> Made {
         seed: truth.seed,
         truth: Some(truth),
     }
+}
+
+/// The longest file of settings, in bytes.
+const LONGEST_SETTINGS: u64 = 1 << 20;
+
+/// Reads the settings of a truth file, or of a file that holds nothing else; `of_kind` picks those of the kind from
+/// a truth.
+fn read_settings<T: serde::de::DeserializeOwned>(
+    path: &Path,
+    kind: &str,
+    of_kind: impl Fn(Settings) -> Option<T>,
+) -> anyhow::Result<T> {
+    let text = read_at_most(path, LONGEST_SETTINGS).with_context(|| path.display().to_string())?;
+    if let Ok(truth) = serde_json::from_slice::<Truth>(&text) {
+        let other = match &truth.settings {
+            Settings::Ellipsoid(_) => "an ellipsoid's",
+            Settings::Pepper(_) => "a pepper's",
+            Settings::Fruit(_) => "a fruit's of another kind",
+            Settings::Mesh(_) => "a mesh's",
+        };
+        return of_kind(truth.settings).with_context(|| {
+            format!(
+                "{}: these are {other} settings, not those of a {kind}",
+                path.display()
+            )
+        });
+    }
+    serde_json::from_slice(&text).with_context(|| format!("{}: no settings of a {kind}", path.display()))
 }
 
 /// Simulates each job and writes it, one after the other. The same seed gives the same bytes.

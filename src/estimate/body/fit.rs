@@ -2,7 +2,7 @@
 //!
 //! The cost of a pose is the negative logarithm of its evidence, the probability of the observations whatever the body's
 //! coefficients β ~ N(μ, sd) are, by Laplace's approximation:
-//! E = Σ huber(r/σ) + ½ Σ ((β−μ)/sd)² + Σ ln sd + ½ ln det A + ½ |c − c₀|² / (0.6 S)²,
+//! E = Σ huber(r/σ) + ½ Σ ((β−μ)/sd)² + Σ ln sd + ½ ln det A + ½ |c − c₀|² / (1.4 S)²,
 //! with A the information of β. The best β of a pose is found by iterated least squares along with the steps of the pose.
 
 use glam::DVec3;
@@ -19,9 +19,9 @@ pub(super) const SIGMA: f64 = 0.035;
 /// Huber's bound between squared and linear loss, in standard deviations.
 const HUBER: f64 = 1.5;
 /// The points of a surface err together. Their misfits count as those of so many independent ones.
-const EFFECTIVE_POINTS: f64 = 250.0;
+const EFFECTIVE_POINTS: f64 = 94.0;
 /// The expected distance of the center from its guess, in units of the fruit's size.
-const CENTER_SPREAD: f64 = 0.6;
+const CENTER_SPREAD: f64 = 1.4;
 /// The longest step of the axis (radians), and of the center in units of the fruit's size.
 const LONGEST: (f64, f64) = (0.35, 0.5);
 

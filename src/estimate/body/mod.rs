@@ -42,6 +42,9 @@ pub(super) fn estimate(
     Ok(fit.estimate(surface))
 }
 
+/// The narrowness of a waist from which on a body may be two fruits. Pears keep to 0.9 and more.
+const WAIST: f64 = 0.8;
+
 impl BodyFit {
     /// Returns the estimate that the fitted bodies give.
     pub fn estimate(&self, surface: &Surface) -> Estimate {
@@ -53,54 +56,64 @@ impl BodyFit {
         let axis = considered(best);
         let others = distinct(&axis, others.iter().map(considered));
         let mut estimate = Estimate::fitted(Estimator::Body, surface, best.body.pose.center, &axis, others);
-        let confidence = confidence::confidence(estimate.lead, best.rms);
+        let misfit = best.outline.as_ref().map_or(0.0, |outline| outline.misfit);
+        let confidence = confidence::confidence(estimate.lead, misfit);
         estimate.confidence = Some(confidence);
         if let Some(axis) = &mut estimate.axis {
             axis.confidence = Some(confidence);
         }
-        estimate.ambiguous = confidence::is_ambiguous(estimate.lead, confidence);
+        let has_waist = best.body.waist().is_some_and(|waist| waist < WAIST);
+        estimate.ambiguous = has_waist || confidence::is_ambiguous(estimate.lead, confidence, best.rms);
         if let (Some(outline), Some(comparison)) = (&self.outline, &best.outline) {
-            let occlusion = occlusion::occlusion(outline, comparison);
-            estimate.seen_share = Some(comparison.seen_share);
-            estimate.occlusion = Some(occlusion);
+            let share = occlusion::seen_share(outline, comparison);
+            estimate.seen_share = Some(share);
+            estimate.occlusion = Some(occlusion::occlusion(share));
         }
-        self.warn(surface, &mut estimate);
+        estimate.warnings = self.warnings(surface, &estimate, has_waist);
         estimate
     }
 
-    fn warn(&self, surface: &Surface, estimate: &mut Estimate) {
-        let mut warn = |text: String| estimate.warnings.push(text);
+    fn warnings(&self, surface: &Surface, estimate: &Estimate, has_waist: bool) -> Vec<String> {
+        let mut warnings: Vec<String> = Vec::new();
+        let mut warn = |text: &str| warnings.push(text.into());
         match surface.view {
             View::OneCamera if self.outline.is_none() => {
-                warn("Points lie beside the camera or behind it, so that the fruit has no outline.".into());
+                warn("Points lie beside the camera or behind it, so that the fruit has no outline.");
             }
             View::OneCamera => {}
             View::Fused => warn(
-                "Points lie behind one another, as in a cloud fused from several views: the axis is fitted without an outline."
-                    .into(),
+                "Points lie behind one another, as in a cloud fused from several views: the axis is fitted without an outline.",
             ),
             View::Inside => {
-                warn("The viewpoint lies among the points: the axis is fitted without an outline.".into());
+                warn("The viewpoint lies among the points: the axis is fitted without an outline.")
             }
         }
-        if let Some(outline) = &self.outline
-            && outline.contour_share() == 0.0
+        if self
+            .outline
+            .as_ref()
+            .is_some_and(|outline| outline.contour_share() == 0.0)
         {
-            warn(
-                "No edge of the points is the fruit's own contour, so that the outline tells nothing.".into(),
-            );
+            warn("No edge of the points is the fruit's own contour, so that the outline tells nothing.");
         }
-        if estimate.ambiguous
-            && let (Some(lead), Some(rival)) = (estimate.lead, estimate.alternatives.first())
-        {
-            let _ = (lead, rival);
+        if has_waist {
+            warn("The fitted body has a waist, as two fruits in one cloud have: its axis may join them.");
+        } else if estimate.ambiguous {
+            warn(match estimate.lead {
+                Some(lead) if lead < confidence::LEAST_LEAD => {
+                    "Another axis explains the points about as well: the fruit may be turned otherwise."
+                }
+                _ => {
+                    "The axis is not sure: the fitted body leads little over others, or fits the points badly."
+                }
+            });
         }
-        if estimate.occlusion == Some(Occlusion::Serious) {
-            let hidden = 100.0 * (1.0 - estimate.seen_share.unwrap_or(1.0));
-            warn(format!(
-                "Half of the fruit or more may be hidden: {hidden:.0} % of its outline's area is not seen."
+        if let (Some(Occlusion::Serious), Some(seen)) = (estimate.occlusion, estimate.seen_share) {
+            let hidden = 100.0 * (1.0 - seen);
+            warn(&format!(
+                "Half of the fruit or more may be hidden: about {hidden:.0} % of its cross-section is not seen."
             ));
         }
+        warnings
     }
 }
 

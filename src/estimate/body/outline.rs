@@ -54,7 +54,7 @@ pub struct Comparison {
 
 impl Outline {
     /// Finds the outline of points relative to their camera, with normals; `None` if they are not ahead of it.
-    pub(super) fn of(points: &[DVec3], normals: &[DVec3]) -> Option<Self> {
+    pub(in crate::estimate) fn of(points: &[DVec3], normals: &[DVec3]) -> Option<Self> {
         let ahead = points.iter().sum::<DVec3>().try_normalize()?;
         // Right and down as far as the file's frame is that of a camera whose y points down.
         let right = DVec3::Y
@@ -112,17 +112,16 @@ impl Outline {
     }
 
     /// Returns the rays through the contour, each with a factor to its row in a fit: `sigma` over the uncertainty of the
-    /// body's edge, all lengths in units of the fruit's size. Grazing surface gives no points, so that the body reaches
-    /// beyond the outermost ones by about S (1 − sin of the last angle), of which the rays allow for half.
-    pub(super) fn rays(&self, size: f64, sigma: f64) -> Vec<(DVec3, f64)> {
+    /// body's edge, in units of the fruit's size. Grazing surface gives no points, so that the body may reach beyond the
+    /// outermost ones by about S (1 − sin of the last angle).
+    pub(super) fn rays(&self, sigma: f64) -> Vec<(DVec3, f64)> {
         /// The uncertainty of an edge at which the surface turns away altogether.
-        const EDGE_SPREAD: f64 = 0.1;
+        const EDGE_SPREAD: f64 = 0.03;
         let ray = |(s, edge): (usize, &Option<Edge>)| {
             let edge = edge.filter(Edge::is_contour)?;
             let hole = 1.0 - (1.0 - edge.cosine * edge.cosine).sqrt();
-            let reach = edge.reach + 0.5 * hole * size / edge.depth;
             let (sin, cos) = ((s as f64 + 0.5) / SECTORS as f64 * TAU - PI).sin_cos();
-            let at = self.middle + reach * DVec2::new(cos, sin);
+            let at = self.middle + edge.reach * DVec2::new(cos, sin);
             let direction = (self.camera * at.extend(1.0)).normalize();
             Some((direction, sigma / (EDGE_SPREAD + 0.5 * hole)))
         };
@@ -131,13 +130,22 @@ impl Outline {
 
     /// Compares a body's outline with the seen one. `size` is the fruit's, in centimeters.
     pub(super) fn compare(&self, body: &Body, size: f64) -> Comparison {
+        self.compare_points(body.points(), size)
+    }
+
+    /// Compares the outline of points all over a body, about two degrees apart, with the seen one.
+    pub(in crate::estimate) fn compare_points(
+        &self,
+        points: impl Iterator<Item = DVec3>,
+        size: f64,
+    ) -> Comparison {
         /// The expected excess and its standard deviation, in units of the fruit's size: edges are not measured.
         const EXPECTED: (f64, f64) = (0.02, 0.04);
         /// The bound between squared and linear loss, and the largest loss.
         const HUBER: f64 = 2.0;
         const LARGEST: f64 = 12.0;
         let mut reaches = vec![0.0_f64; SECTORS];
-        for point in body.points() {
+        for point in points {
             if let Some((at, _)) = self.image(point) {
                 let offset = at - self.middle;
                 let reach = &mut reaches[sector(offset)];

@@ -130,3 +130,75 @@ impl Place {
         extra[PARAMETERS] = factor * self.radius;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::basis::{COARSE, FINE};
+    use super::*;
+
+    /// The misfits of all rows.
+    fn misfits(observations: &Observations, basis: &Basis, pose: Pose, beta: &[f64]) -> Vec<f64> {
+        let (terms, width) = (basis.terms(), basis.terms() + EXTRA);
+        let mut rows = vec![0.0; width * observations.len()];
+        observations.rows(basis, pose, beta, &mut rows);
+        let misfit = |row: &[f64]| {
+            let body: f64 = row[..terms].iter().zip(beta).map(|(y, b)| y * b).sum();
+            row[width - 1] - body
+        };
+        rows.chunks_exact(width).map(misfit).collect()
+    }
+
+    #[test]
+    fn derivatives_are_those_of_differences() {
+        for (basis, stretch) in [(&COARSE, 1.0), (&FINE, 1.0), (&FINE, 2.3)] {
+            let center = DVec3::new(1.0, -2.0, 40.0);
+            let place = |i: u32| {
+                let (a, b) = (0.7 * f64::from(i), 0.9 + 0.13 * f64::from(i));
+                DVec3::new(a.cos() * b.sin(), b.cos(), -(a.sin() * b.sin()).abs() - 0.3)
+            };
+            let observations = Observations {
+                points: (0..40)
+                    .map(|i| center + (2.0 + 0.02 * f64::from(i)) * place(i))
+                    .collect(),
+                normals: (0..40).map(|i| (place(i) + 0.2 * DVec3::X).normalize()).collect(),
+                rays: (0..9)
+                    .map(|i| ((center + 3.0 * place(i)).normalize(), 0.4))
+                    .collect(),
+            };
+            let pose = Pose::new(
+                DVec3::new(0.3, -0.8, 0.2).normalize(),
+                center + 0.1 * DVec3::Y,
+                stretch,
+            );
+            let beta: Vec<f64> = (0..basis.terms())
+                .map(|j| if j == 0 { 2.5 } else { 0.3 * (1.7 * j as f64).sin() })
+                .collect();
+            let (terms, width) = (basis.terms(), basis.terms() + EXTRA);
+            let mut rows = vec![0.0; width * observations.len()];
+            observations.rows(basis, pose, &beta, &mut rows);
+            for k in 0..PARAMETERS {
+                let at = |length: f64| {
+                    let mut step = [0.0; PARAMETERS];
+                    step[k] = length;
+                    misfits(&observations, basis, pose.moved(step), &beta)
+                };
+                let (before, after) = (at(-1e-6), at(1e-6));
+                for (i, row) in rows.chunks_exact(width).enumerate() {
+                    let difference = (after[i] - before[i]) / 2e-6;
+                    // A row's factor has a kink where the cosine is least, and a ray's is held.
+                    let kink = i < observations.points.len() && {
+                        let offset = observations.points[i] - pose.center;
+                        observations.normals[i].dot(offset) < 0.2 * offset.length()
+                    };
+                    let is_ray = i >= observations.points.len();
+                    let tolerance = if is_ray && stretch != 1.0 { 0.2 } else { 1e-6 };
+                    let error = (row[terms + k] - difference).abs();
+                    assert!(
+                        kink || error <= tolerance * (1.0 + difference.abs()),
+                        "row {i}, parameter {k}: {error}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -19,7 +19,7 @@ const LAST_STEPS: usize = 12;
 /// Candidates: so many that are at least so many degrees apart, then so many that are farther apart.
 const CANDIDATES: [(usize, f64); 2] = [(4, 8.0), (3, 25.0)];
 /// The weight of the outline's misfit against the evidence, in the search and in the last fit.
-const OUTLINE_WEIGHT: (f64, f64) = (10.0, 20.0);
+const OUTLINE_WEIGHT: (f64, f64) = (7.0, 14.0);
 
 /// A body that was fitted, with its cost.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,9 +65,7 @@ pub fn fit_bodies(surface: &Surface, prior: Prior, watch: &dyn Watch) -> Result<
         prior,
         outline: outline.as_ref(),
     };
-    let rays = outline
-        .as_ref()
-        .map_or(Vec::new(), |o| o.rays(surface.size_cm, SIGMA));
+    let rays = outline.as_ref().map_or(Vec::new(), |o| o.rays(SIGMA));
     let few_rays = rays.iter().copied().step_by(2).collect();
     let coarse = observations(&surface.coarse, few_rays);
     let fine = observations(&surface.fine, rays);
@@ -163,7 +161,7 @@ impl Search<'_> {
         };
         let body = Body::new(fit.pose, fit.beta);
         let outline = self.outline.map(|seen| seen.compare(&body, size));
-        let prior_cost = prior_cost(self.prior, body.pose);
+        let prior_cost = self.prior.cost(body.pose.axis(), body.pose.center);
         let misfit = outline.as_ref().map_or(0.0, |o| o.misfit);
         Ok(Some(Candidate {
             cost: fit.cost + outline_weight * misfit + prior_cost,
@@ -204,21 +202,4 @@ fn quantile(ascending: &[f64], share: f64) -> f64 {
     let at = share * last as f64;
     let (low, part) = (at.floor() as usize, at.fract());
     ascending[low] + part * (ascending[(low + 1).min(last)] - ascending[low])
-}
-
-/// The cost of an axis by the assumption that was asked for.
-fn prior_cost(prior: Prior, pose: Pose) -> f64 {
-    match prior {
-        Prior::None => 0.0,
-        Prior::Lean { free_deg, sd_deg } => {
-            let lean_deg = 90.0 - angle_between_lines_rad(pose.axis(), pose.center).to_degrees();
-            0.5 * ((lean_deg - free_deg).max(0.0) / sd_deg).powi(2)
-        }
-        Prior::Up => {
-            /// The standard deviation of fruits' axes from upright, in degrees.
-            const SPREAD_DEG: f64 = 25.0;
-            let from_up_deg = angle_between_lines_rad(pose.axis(), DVec3::Y).to_degrees();
-            0.5 * (from_up_deg / SPREAD_DEG).powi(2)
-        }
-    }
 }

@@ -86,6 +86,20 @@ impl Body {
         (radius * cos * self.pose.stretch, radius * sin)
     }
 
+    /// Returns the waist of the profile: the least distance from the axis between two bulges, as a share of the smaller
+    /// bulge's, 0 to 1; `None` unless there are two bulges. Hardly any fruit has a waist, but two beside each other do.
+    pub fn waist(&self) -> Option<f64> {
+        const STEPS: usize = 90;
+        let distance = |i: usize| self.profile((i as f64 + 0.5) / STEPS as f64 * PI).1;
+        let distances: Vec<f64> = (0..STEPS).map(distance).collect();
+        let largest = |range: &[f64]| range.iter().copied().fold(0.0, f64::max);
+        let waist = |i: usize| {
+            let bulge = largest(&distances[..i]).min(largest(&distances[i + 1..]));
+            (bulge > distances[i]).then(|| distances[i].max(0.0) / bulge)
+        };
+        (1..STEPS - 1).filter_map(waist).min_by(f64::total_cmp)
+    }
+
     /// Returns points all over the surface, in centimeters relative to the viewpoint.
     pub(super) fn points(&self) -> impl Iterator<Item = DVec3> + '_ {
         let grid: &Grid = if self.beta.len() == basis::COARSE.terms() {

@@ -1,5 +1,6 @@
 //! The rows as CSV and as Parquet, with the same columns.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use parquet::basic::{ConvertedType, Repetition, Type as Physical};
@@ -9,7 +10,8 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
-use crate::evaluate::Row;
+use crate::estimate::Estimator;
+use crate::evaluate::{EstimateInRow, Row};
 use crate::text::spreadsheet_field;
 
 /// The reason why a table could not be written.
@@ -31,7 +33,7 @@ enum Value {
 }
 
 /// The name of a column, and its value in a row.
-type Column = (&'static str, fn(&Row) -> Value);
+type Column = (Cow<'static, str>, Box<dyn Fn(&Row) -> Value>);
 
 macro_rules! components {
     ($field:ident, $index:literal) => {
@@ -46,8 +48,8 @@ macro_rules! parts {
     };
 }
 
-/// All columns in order.
-const COLUMNS: [Column; 45] = [
+/// The columns that every table has, in order.
+const COLUMNS: [(&str, fn(&Row) -> Value); 45] = [
     ("file", |row| Value::Text(Some(row.file.clone()))),
     ("sha256", |row| Value::Text(row.sha256.clone())),
     ("points", |row| Value::Count(row.points)),
@@ -123,11 +125,57 @@ const COLUMNS: [Column; 45] = [
     ),
 ];
 
+/// Returns all columns in order: after those of every table, the ones of the estimators that were asked for.
+fn columns(rows: &[Row]) -> Vec<Column> {
+    let mut columns: Vec<Column> = Vec::new();
+    for (name, value) in COLUMNS {
+        columns.push((name.into(), Box::new(value)));
+    }
+    let asked = |estimator: &&Estimator| rows.iter().any(|row| row.estimate(**estimator).is_some());
+    for &estimator in Estimator::ALL.iter().filter(asked) {
+        let mut add = |what: &str, value: fn(&EstimateInRow) -> Value, missing: fn() -> Value| {
+            let of = move |row: &Row| row.estimate(estimator).map_or_else(missing, value);
+            columns.push((format!("{}_{what}", estimator.name()).into(), Box::new(of)));
+        };
+        add(
+            "error_deg",
+            |e| Value::Number(e.error_deg),
+            || Value::Number(None),
+        );
+        if estimator != Estimator::Paper {
+            add(
+                "confidence",
+                |e| Value::Number(e.confidence),
+                || Value::Number(None),
+            );
+            add(
+                "ambiguous",
+                |e| Value::Count(Some(e.ambiguous.into())),
+                || Value::Count(None),
+            );
+        }
+        if estimator == Estimator::Body {
+            add(
+                "seen_share",
+                |e| Value::Number(e.seen_share),
+                || Value::Number(None),
+            );
+            let class = |e: &EstimateInRow| Value::Text(e.occlusion.map(|o| o.name().into()));
+            add("occlusion", class, || Value::Text(None));
+            let priority =
+                |row: &Row| Value::Count(row.estimate(Estimator::Body).map(EstimateInRow::priority));
+            columns.push(("priority".into(), Box::new(priority)));
+        }
+    }
+    columns
+}
+
 /// Writes the rows as CSV with a header.
 ///
 /// # Errors
 /// Returns an error if the writer fails.
 pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
+    let columns = columns(rows);
     let mut table = csv::Writer::from_writer(Vec::new());
     let write = |table: &mut csv::Writer<Vec<u8>>, fields: Vec<String>| {
         table
@@ -136,7 +184,7 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
     };
     write(
         &mut table,
-        COLUMNS.iter().map(|(name, _)| (*name).into()).collect(),
+        columns.iter().map(|(name, _)| name.to_string()).collect(),
     )?;
     for row in rows {
         let field = |(_, value): &Column| match value(row) {
@@ -144,7 +192,7 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
             Value::Count(count) => count.map(|c| c.to_string()).unwrap_or_default(),
             Value::Number(number) => number.map(|n| n.to_string()).unwrap_or_default(),
         };
-        write(&mut table, COLUMNS.iter().map(field).collect())?;
+        write(&mut table, columns.iter().map(field).collect())?;
     }
     table.into_inner().map_err(|e| TableError::Csv(e.to_string()))
 }
@@ -154,6 +202,7 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
 /// # Errors
 /// Returns an error if the writer fails.
 pub fn parquet(rows: &[Row]) -> Result<Vec<u8>, TableError> {
+    let columns = columns(rows);
     let sample = Row::failed("", String::new());
     let field = |(name, value): &Column| {
         let (physical, converted) = match value(&sample) {
@@ -167,7 +216,7 @@ pub fn parquet(rows: &[Row]) -> Result<Vec<u8>, TableError> {
             .build();
         built.map(Arc::new)
     };
-    let fields = COLUMNS.iter().map(field).collect::<Result<_, _>>()?;
+    let fields = columns.iter().map(field).collect::<Result<_, _>>()?;
     let schema = Type::group_type_builder("clouds").with_fields(fields).build()?;
     let properties = WriterProperties::builder()
         .set_created_by(concat!("axiscope ", env!("CARGO_PKG_VERSION")).into())
@@ -175,7 +224,7 @@ pub fn parquet(rows: &[Row]) -> Result<Vec<u8>, TableError> {
     let mut bytes = Vec::new();
     let mut file = SerializedFileWriter::new(&mut bytes, Arc::new(schema), Arc::new(properties))?;
     let mut group = file.next_row_group()?;
-    for (_, value) in COLUMNS {
+    for (_, value) in &columns {
         let Some(mut column) = group.next_column()? else {
             break;
         };

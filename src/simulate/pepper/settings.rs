@@ -3,9 +3,8 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::FruitColor;
-use crate::simulate::error::{each_within, within};
-use crate::simulate::{DepthCamera, ScanSettings, SimulateError};
+use crate::simulate::error::{set_within, within};
+use crate::simulate::{DepthCamera, FruitColor, ScanSettings, SimulateError, Surroundings};
 
 /// A pepper and the camera that looks at it.
 ///
@@ -105,85 +104,55 @@ impl Default for PepperSettings {
 impl PepperSettings {
     /// Checks the range of every setting, which NaN is out of.
     pub(super) fn check(&self) -> Result<(), SimulateError> {
-        self.camera.check()?;
-        self.scan.check()?;
-        self.check_shape()?;
-        self.check_pose()?;
-        within("leaf_cover", self.leaf_cover, (0.0, 0.9), "0 to 0.9")
-    }
-
-    fn check_shape(&self) -> Result<(), SimulateError> {
         const SIZE: (f64, f64) = (1.0, 50.0);
-        set("height_cm", self.height_cm, SIZE, "1 to 50")?;
-        set("width_cm", self.width_cm, SIZE, "1 to 50")?;
-        set("lobes", self.lobes.map(f64::from), (1.0, 12.0), "1 to 12")?;
-        set("lobe_depth", self.lobe_depth, (0.0, 0.4), "0 to 0.4")?;
-        set("taper", self.taper, (0.0, 0.8), "0 to 0.8")?;
+        set_within("height_cm", self.height_cm, SIZE, "1 to 50")?;
+        set_within("width_cm", self.width_cm, SIZE, "1 to 50")?;
+        set_within("lobes", self.lobes.map(f64::from), (1.0, 12.0), "1 to 12")?;
+        set_within("lobe_depth", self.lobe_depth, (0.0, 0.4), "0 to 0.4")?;
+        set_within("taper", self.taper, (0.0, 0.8), "0 to 0.8")?;
         within("asymmetry", self.asymmetry, (0.0, 0.2), "0 to 0.2")?;
-        let length = (0.5, 20.0);
-        set("peduncle_length_cm", self.peduncle_length_cm, length, "0.5 to 20")?;
-        set(
-            "peduncle_width_cm",
-            self.peduncle_width_cm,
-            (0.1, 5.0),
-            "0.1 to 5",
-        )?;
-        set(
-            "peduncle_bend_deg",
-            self.peduncle_bend_deg,
-            (0.0, 120.0),
-            "0 to 120",
-        )?;
-        let towards = self.peduncle_bend_towards_deg;
-        set("peduncle_bend_towards_deg", towards, TURN, "-360 to 360")
+        self.surroundings().check()
     }
 
-    fn check_pose(&self) -> Result<(), SimulateError> {
-        let out_of_image = self.max_tilt_towards_camera_deg;
-        within(
-            "max_tilt_towards_camera_deg",
-            out_of_image,
-            (0.0, 90.0),
-            "0 to 90",
-        )?;
-        let in_image = self.max_tilt_sideways_deg;
-        within("max_tilt_sideways_deg", in_image, (0.0, 180.0), "0 to 180")?;
-        let out_of_image = self.tilt_towards_camera_deg;
-        set(
-            "tilt_towards_camera_deg",
-            out_of_image,
-            (-90.0, 90.0),
-            "-90 to 90",
-        )?;
-        let in_image = self.tilt_sideways_deg;
-        set("tilt_sideways_deg", in_image, (-180.0, 180.0), "-180 to 180")?;
-        set("spin_deg", self.spin_deg, TURN, "-360 to 360")?;
-        let (near, far) = (self.camera.near_cm, self.camera.far_cm);
-        let [nearest, farthest] = self.distance_cm;
-        within("distance_cm[0]", nearest, (near, far), "in the camera's range")?;
-        let beyond = (nearest, far);
-        within(
-            "distance_cm[1]",
-            farthest,
-            beyond,
-            "at least the first and in the camera's range",
-        )?;
-        if let Some(center) = self.center_cm {
-            each_within("center_cm", center, (-1000.0, 1000.0), "-1000 to 1000")?;
-            within("center_cm.z", center.z, (near, far), "in the camera's range")?;
+    /// The settings of the surroundings.
+    pub fn surroundings(&self) -> Surroundings {
+        Surroundings {
+            peduncle_length_cm: self.peduncle_length_cm,
+            peduncle_width_cm: self.peduncle_width_cm,
+            peduncle_bend_deg: self.peduncle_bend_deg,
+            peduncle_bend_towards_deg: self.peduncle_bend_towards_deg,
+            max_tilt_towards_camera_deg: self.max_tilt_towards_camera_deg,
+            max_tilt_sideways_deg: self.max_tilt_sideways_deg,
+            tilt_towards_camera_deg: self.tilt_towards_camera_deg,
+            tilt_sideways_deg: self.tilt_sideways_deg,
+            spin_deg: self.spin_deg,
+            distance_cm: self.distance_cm,
+            center_cm: self.center_cm,
+            leaf_cover: self.leaf_cover,
+            camera: self.camera.clone(),
+            scan: self.scan.clone(),
         }
-        Ok(())
     }
-}
 
-const TURN: (f64, f64) = (-360.0, 360.0);
-
-/// Checks a value that may be left to chance.
-fn set(
-    name: &'static str,
-    value: Option<f64>,
-    range: (f64, f64),
-    allowed: &'static str,
-) -> Result<(), SimulateError> {
-    value.map_or(Ok(()), |value| within(name, value, range, allowed))
+    /// The same pepper in other surroundings.
+    #[must_use]
+    pub fn with_surroundings(self, surroundings: Surroundings) -> Self {
+        Self {
+            peduncle_length_cm: surroundings.peduncle_length_cm,
+            peduncle_width_cm: surroundings.peduncle_width_cm,
+            peduncle_bend_deg: surroundings.peduncle_bend_deg,
+            peduncle_bend_towards_deg: surroundings.peduncle_bend_towards_deg,
+            max_tilt_towards_camera_deg: surroundings.max_tilt_towards_camera_deg,
+            max_tilt_sideways_deg: surroundings.max_tilt_sideways_deg,
+            tilt_towards_camera_deg: surroundings.tilt_towards_camera_deg,
+            tilt_sideways_deg: surroundings.tilt_sideways_deg,
+            spin_deg: surroundings.spin_deg,
+            distance_cm: surroundings.distance_cm,
+            center_cm: surroundings.center_cm,
+            leaf_cover: surroundings.leaf_cover,
+            camera: surroundings.camera,
+            scan: surroundings.scan,
+            ..self
+        }
+    }
 }

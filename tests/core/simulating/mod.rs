@@ -2,6 +2,7 @@
 
 mod camera;
 mod ellipsoid;
+mod fruit;
 mod mesh_files;
 mod meshes;
 mod pepper;

@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec2, DVec3};
 use rand::{Rng, RngExt};
 
-use super::super::depth_camera::{DepthCamera, DepthImage};
-use super::super::mesh::{Mesh, Vertex};
 use super::color::Paint;
 use crate::geometry::Cloud;
+use crate::simulate::depth_camera::{DepthCamera, DepthImage};
+use crate::simulate::mesh::{Mesh, Vertex};
 
 const ACROSS: u32 = 41;
 const ALONG: u32 = 61;
@@ -17,7 +17,7 @@ const GAP_CM: f64 = 0.5;
 
 /// The shape and posture of a leaf.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Leaf {
+pub(in crate::simulate) struct Leaf {
     length_cm: f64,
     /// The direction in the image along which it reaches over the fruit.
     towards_rad: f64,
@@ -25,7 +25,7 @@ pub(super) struct Leaf {
 }
 
 impl Leaf {
-    pub(super) fn draw(rng: &mut impl Rng) -> Self {
+    pub(in crate::simulate) fn draw(rng: &mut impl Rng) -> Self {
         let length_cm = 11.0 + 5.0 * rng.random::<f64>();
         // From above and the sides, since leaves hang down.
         let towards_rad = PI / 2.0 + (rng.random::<f64>() - 0.5) * PI;
@@ -42,7 +42,7 @@ impl Leaf {
     /// does hide.
     ///
     /// It is slid along its own direction over the fruit; one too small to hide so much is grown.
-    pub(super) fn covering(
+    pub(in crate::simulate) fn covering(
         mut self,
         cover: f64,
         camera: &DepthCamera,

@@ -15,17 +15,20 @@ pub enum FruitColor {
     Yellow,
     /// Unripe: hardly to be told from its peduncle by color.
     Green,
+    /// Ripe and purple, as eggplants are; no seed draws it for a pepper.
+    Purple,
 }
 
 impl FruitColor {
-    /// All colors.
-    pub const ALL: [Self; 3] = [Self::Red, Self::Yellow, Self::Green];
+    /// The colors of sweet peppers, of which a seed draws one.
+    pub const PEPPERS: [Self; 3] = [Self::Red, Self::Yellow, Self::Green];
 
     fn skin(self) -> Vec3 {
         match self {
             Self::Red => Vec3::new(186.0, 28.0, 24.0),
             Self::Yellow => Vec3::new(232.0, 172.0, 28.0),
             Self::Green => Vec3::new(58.0, 108.0, 38.0),
+            Self::Purple => Vec3::new(62.0, 28.0, 72.0),
         }
     }
 }
@@ -36,7 +39,7 @@ const LEAF_VEIN: Vec3 = Vec3::new(112.0, 150.0, 84.0);
 
 /// The colors of one plant.
 #[derive(Debug, Clone)]
-pub(super) struct Paint {
+pub(in crate::simulate) struct Paint {
     skin: Vec3,
     peduncle: Vec3,
     leaf: Vec3,
@@ -45,7 +48,7 @@ pub(super) struct Paint {
 }
 
 impl Paint {
-    pub(super) fn draw(color: FruitColor, rng: &mut impl Rng) -> Self {
+    pub(in crate::simulate) fn draw(color: FruitColor, rng: &mut impl Rng) -> Self {
         let mut tone = |base: Vec3| {
             let brightness = 0.9 + 0.2 * rng.random::<f32>();
             let hue = Vec3::from_array(rng.random::<[f32; 3]>()) * 12.0 - 6.0;
@@ -63,7 +66,7 @@ impl Paint {
     }
 
     /// The skin at a place given relative to the body's half size, `unripe` 0 to 1 of the way to green.
-    pub(super) fn fruit(&self, relative: DVec3, unripe: f64) -> Vec3 {
+    pub(in crate::simulate) fn fruit(&self, relative: DVec3, unripe: f64) -> Vec3 {
         let waves = self
             .mottle
             .iter()
@@ -73,12 +76,12 @@ impl Paint {
     }
 
     /// The peduncle, paler towards its cut end (0 at the base, 1 at the end).
-    pub(super) fn peduncle(&self, along: f64) -> Vec3 {
+    pub(in crate::simulate) fn peduncle(&self, along: f64) -> Vec3 {
         self.peduncle * (0.88 + 0.2 * along as f32)
     }
 
     /// The leaf, `vein` 0 to 1 of the way to the color of its midrib.
-    pub(super) fn leaf(&self, vein: f64) -> Vec3 {
+    pub(in crate::simulate) fn leaf(&self, vein: f64) -> Vec3 {
         self.leaf.lerp(LEAF_VEIN, vein as f32)
     }
 }

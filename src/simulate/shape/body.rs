@@ -1,46 +1,66 @@
-//! The fruit's body: a lobed, tapered surface with a dimple at either end.
+//! A fruit's body: a tapered surface with lobes or ribs, a neck, and a dimple at either end.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{DVec3, Vec3};
 use rand::{Rng, RngExt};
 
-use super::super::mesh::{Mesh, Vertex};
 use super::color::Paint;
 use crate::geometry::Cloud;
+use crate::simulate::mesh::{Mesh, Vertex};
 
 /// Corners along the axis and around it: triangles of about a millimeter, the size of a pixel at
 /// 45 cm, whose flatness is off by a few micrometers only.
 const RINGS: u32 = 150;
 const AROUND: u32 = 256;
 
-/// The boxiness of the profile above and below the middle: 2 is round, more is boxier.
-const BOXY: (f64, f64) = (2.9, 2.3);
-/// The radius of the dimples at the stem end and the blossom end, relative to the body's.
-const DIMPLE_RADIUS: (f64, f64) = (0.42, 0.33);
 /// The share of the stem end's dimple that the calyx fills.
 const CALYX_FILLS: f64 = 0.3;
-/// The blossom end's dimple is this much of the other's depth.
-const BLOSSOM_DIMPLE: f64 = 0.4;
-/// The rounding of the grooves between the lobes at their bottoms.
-const GROOVE_ROUNDING: f64 = 0.28;
+
+/// The parts of a shape that are the same for all fruits of a kind.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::simulate) struct Form {
+    /// The boxiness of the profile above and below the middle: 2 is round, more is boxier.
+    pub(in crate::simulate) boxy: (f64, f64),
+    /// The radius of the dimples at the stem end and the blossom end, relative to the body's.
+    pub(in crate::simulate) dimple_radius: (f64, f64),
+    /// The depth of the blossom end's dimple, relative to the other's.
+    pub(in crate::simulate) blossom_dimple: f64,
+    /// The rounding of the grooves between the lobes at their bottoms.
+    pub(in crate::simulate) groove_rounding: f64,
+    /// The narrowing towards the stem end, relative to the width, which is steepest at 0.3 of half the height
+    /// over the middle: a pear's neck.
+    pub(in crate::simulate) neck: f64,
+}
+
+impl Form {
+    /// A sweet pepper.
+    pub(in crate::simulate) const PEPPER: Self = Self {
+        boxy: (2.9, 2.3),
+        dimple_radius: (0.42, 0.33),
+        blossom_dimple: 0.4,
+        groove_rounding: 0.28,
+        neck: 0.0,
+    };
+}
 
 /// The body's measures, in the fruit's frame: y up the axis, the shoulders' tops at +height/2, the
 /// lobes' bottoms at −height/2.
 #[derive(Debug, Clone)]
-pub(super) struct Body {
-    pub(super) half_height_cm: f64,
-    pub(super) half_width_cm: f64,
-    pub(super) lobes: u32,
-    pub(super) lobe_depth: f64,
-    pub(super) taper: f64,
-    pub(super) dimple_cm: f64,
-    pub(super) asymmetry: Asymmetry,
+pub(in crate::simulate) struct Body {
+    pub(in crate::simulate) form: Form,
+    pub(in crate::simulate) half_height_cm: f64,
+    pub(in crate::simulate) half_width_cm: f64,
+    pub(in crate::simulate) lobes: u32,
+    pub(in crate::simulate) lobe_depth: f64,
+    pub(in crate::simulate) taper: f64,
+    pub(in crate::simulate) dimple_cm: f64,
+    pub(in crate::simulate) asymmetry: Asymmetry,
 }
 
 /// The fruit's departures from its symmetry; each amplitude is of the size of the setting.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Asymmetry {
+pub(in crate::simulate) struct Asymmetry {
     size: f64,
     /// Lobes of unequal width, an oval section, one side fuller, slanting shoulders, a blossom end
     /// off the axis: the direction of each, around the axis.
@@ -48,7 +68,7 @@ pub(super) struct Asymmetry {
 }
 
 impl Asymmetry {
-    pub(super) fn draw(size: f64, rng: &mut impl Rng) -> Self {
+    pub(in crate::simulate) fn draw(size: f64, rng: &mut impl Rng) -> Self {
         let directions_rad = rng.random::<[f64; 5]>().map(|u| u * TAU);
         Self { size, directions_rad }
     }
@@ -81,17 +101,17 @@ struct Fit {
 impl Body {
     /// The height of the peduncle's base over the center, a little above the floor of the stem end's dimple,
     /// which its calyx fills.
-    pub(super) fn calyx_cm(&self) -> f64 {
+    pub(in crate::simulate) fn calyx_cm(&self) -> f64 {
         self.profile(FRAC_PI_2, self.fit()).up * self.half_height_cm + CALYX_FILLS * self.dimple_cm
     }
 
     /// The radius of a ball around the center that holds the body.
-    pub(super) fn ball_cm(&self) -> f64 {
+    pub(in crate::simulate) fn ball_cm(&self) -> f64 {
         self.half_height_cm.hypot(self.half_width_cm)
     }
 
     /// The skin, in the fruit's frame.
-    pub(super) fn mesh(&self, paint: &Paint) -> Mesh {
+    pub(in crate::simulate) fn mesh(&self, paint: &Paint) -> Mesh {
         let fit = self.fit();
         let angle_rad = |ring: u32| {
             // Rings stand between the two poles, which are corners of their own.
@@ -123,10 +143,12 @@ impl Body {
         let (sin, cos) = angle_rad.sin_cos();
         let cos = cos.max(0.0);
         let dimple = self.dimple_cm / self.half_height_cm;
+        let form = &self.form;
         let (boxy, radius, depth, reach) = if sin >= 0.0 {
-            (BOXY.0, DIMPLE_RADIUS.0, dimple, fit.above)
+            (form.boxy.0, form.dimple_radius.0, dimple, fit.above)
         } else {
-            (BOXY.1, DIMPLE_RADIUS.1, dimple * BLOSSOM_DIMPLE, fit.below)
+            let depth = dimple * form.blossom_dimple;
+            (form.boxy.1, form.dimple_radius.1, depth, fit.below)
         };
         let scale = (cos.powf(boxy) + sin.abs().powf(boxy)).powf(-boxy.recip());
         let out_untapered = cos * scale;
@@ -136,9 +158,17 @@ impl Body {
         let up = sin.signum() * (reach * sin.abs() * scale - pressed);
         Profile {
             up,
-            out: fit.out * out_untapered * (1.0 - self.taper * (1.0 - up) / 2.0),
+            out: fit.out * out_untapered * (1.0 - self.taper * (1.0 - up) / 2.0) * self.neck(up),
             out_untapered,
         }
+    }
+
+    /// The width that a neck leaves at a height, relative to that without a neck.
+    fn neck(&self, up: f64) -> f64 {
+        if self.form.neck == 0.0 {
+            return 1.0;
+        }
+        1.0 - self.form.neck * (1.0 + ((up - 0.3) / 0.35).tanh()) / 2.0
     }
 
     /// Stretches the profile until its highest and lowest points are at ±1 and its widest at 1.
@@ -169,10 +199,13 @@ impl Body {
         let a = &self.asymmetry;
         let n = f64::from(self.lobes);
         let cos = (n / 2.0 * (around_rad + 2.0 * a.wave(0, 1.0, around_rad))).cos();
-        let (crest, floor) = (1.0_f64.hypot(GROOVE_ROUNDING), GROOVE_ROUNDING);
+        let (crest, floor) = (
+            1.0_f64.hypot(self.form.groove_rounding),
+            self.form.groove_rounding,
+        );
         Around {
             direction: DVec3::new(around_rad.cos(), 0.0, -around_rad.sin()),
-            groove: (crest - cos.hypot(GROOVE_ROUNDING)) / (crest - floor),
+            groove: (crest - cos.hypot(self.form.groove_rounding)) / (crest - floor),
             oval: a.wave(1, 2.0, around_rad),
             full: a.wave(2, 1.0, around_rad),
             slant: a.wave(3, 1.0, around_rad),

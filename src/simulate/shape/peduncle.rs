@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use super::super::mesh::{Mesh, Vertex};
 use super::color::Paint;
 use crate::geometry::Cloud;
+use crate::simulate::mesh::{Mesh, Vertex};
 
 const RINGS: u32 = 64;
 const AROUND: u32 = 48;
@@ -18,19 +18,19 @@ const CALYX_FLARE: f64 = 2.3;
 
 /// The peduncle's measures, in the fruit's frame.
 #[derive(Debug, Clone)]
-pub(super) struct Peduncle {
+pub(in crate::simulate) struct Peduncle {
     /// The height of its base over the fruit's center.
-    pub(super) base_cm: f64,
-    pub(super) length_cm: f64,
-    pub(super) width_cm: f64,
+    pub(in crate::simulate) base_cm: f64,
+    pub(in crate::simulate) length_cm: f64,
+    pub(in crate::simulate) width_cm: f64,
     /// The angle between the axis and the direction of its free end.
-    pub(super) bend_deg: f64,
+    pub(in crate::simulate) bend_deg: f64,
     /// The direction that it bends to, around the axis.
-    pub(super) bend_towards_deg: f64,
+    pub(in crate::simulate) bend_towards_deg: f64,
 }
 
 impl Peduncle {
-    pub(super) fn mesh(&self, paint: &Paint) -> Mesh {
+    pub(in crate::simulate) fn mesh(&self, paint: &Paint) -> Mesh {
         let line = self.centerline();
         let (sin, cos) = self.bend_towards_deg.to_radians().sin_cos();
         let aside = DVec3::new(cos, 0.0, -sin);
