@@ -44,12 +44,13 @@ fn color(rgb: [f64; 3]) -> [u8; 4] {
 fn corner(word: &str, vertices: usize, line: usize) -> Result<u32, MeshFormatError> {
     let first = word.split('/').next().unwrap_or_default();
     let index: i64 = first.parse().map_err(|_| MeshFormatError::Face { line })?;
+    let count = i64::try_from(vertices).unwrap_or(i64::MAX);
     let place = if index < 0 {
-        index.checked_add(vertices as i64)
+        index.checked_add(count)
     } else {
         Some(index - 1)
     };
-    let known = place.filter(|place| (0..vertices as i64).contains(place));
+    let known = place.filter(|place| (0..count).contains(place));
     let known = known.and_then(|place| u32::try_from(place).ok());
     known.ok_or(MeshFormatError::NoSuchVertex {
         line,

@@ -22,7 +22,12 @@ fn in_all_formats(folder: &Path, positions: &[DVec3], triangles: &[[u32; 3]]) ->
     obj += "vn 0 1 0\r\ns off\r\n";
     for t in triangles {
         let [a, b, c] = t.map(|i| i64::from(i) + 1);
-        writeln!(obj, "f {a}//1 {b}//1 {}\r", c - 1 - positions.len() as i64).unwrap();
+        writeln!(
+            obj,
+            "f {a}//1 {b}//1 {}\r",
+            c - 1 - i64::try_from(positions.len()).unwrap()
+        )
+        .unwrap();
         writeln!(ply, "3 {} {} {}", t[0], t[1], t[2]).unwrap();
     }
     let header = |format: &str| {
