@@ -5,6 +5,8 @@
 //! surface turns away or at random. Errors of neighboring pixels are independent, and no pixel mixes
 //! the depths on both sides of an edge; a real camera is worse in both.
 
+use std::ops::Range;
+
 use glam::{DVec2, DVec3, Vec3};
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
@@ -206,21 +208,32 @@ impl DepthCamera {
         })
     }
 
-    /// Renders the nearest surface of the mesh in each pixel, without errors.
-    pub(super) fn look(&self, mesh: &Mesh) -> DepthImage {
+    /// Returns the index of the pixel nearest to a point's image; `None` if the point is outside the image.
+    pub(super) fn pixel_of(&self, point: DVec3) -> Option<usize> {
+        if point.z < 1e-3 {
+            return None;
+        }
+        let pixel = (point.truncate() * self.focal_px / point.z + self.middle()).round();
+        let size = DVec2::new(self.width_px.into(), self.height_px.into());
+        let inside = pixel.cmpge(DVec2::ZERO).all() && pixel.cmplt(size).all();
+        inside.then(|| pixel.y as usize * self.width_px as usize + pixel.x as usize)
+    }
+
+    /// Renders the nearest surface of a range of the mesh's triangles in each pixel, without errors.
+    pub(super) fn look(&self, mesh: &Mesh, triangles: Range<usize>) -> DepthImage {
         let (width, height) = (self.width_px as usize, self.height_px as usize);
         let mut image = DepthImage {
             width,
             depths_cm: vec![f64::INFINITY; width * height],
             triangles: vec![0; width * height],
         };
-        self.look_on(mesh, 0, &mut image);
+        self.look_on(mesh, triangles, &mut image);
         image
     }
 
-    /// Adds the triangles from `first` on, which were appended to the mesh, to the image of those before.
-    pub(super) fn look_on(&self, mesh: &Mesh, first: usize, image: &mut DepthImage) {
-        self.rasterize(mesh, first, |place, inverse, triangle| {
+    /// Adds a range of the mesh's triangles to the image of those before.
+    pub(super) fn look_on(&self, mesh: &Mesh, triangles: Range<usize>, image: &mut DepthImage) {
+        self.rasterize(mesh, triangles, |place, inverse, triangle| {
             if inverse * image.depths_cm[place] > 1.0 {
                 image.depths_cm[place] = 1.0 / inverse;
                 image.triangles[place] = triangle;
@@ -231,7 +244,7 @@ impl DepthCamera {
     /// Counts the pixels of an image that the mesh would hide.
     pub(super) fn count_hidden(&self, mesh: &Mesh, image: &DepthImage) -> usize {
         let mut hidden = vec![false; image.depths_cm.len()];
-        self.rasterize(mesh, 0, |place, inverse, _| {
+        self.rasterize(mesh, 0..mesh.triangles.len(), |place, inverse, _| {
             let depth_cm = image.depths_cm[place];
             hidden[place] |= depth_cm.is_finite() && inverse * depth_cm > 1.0;
         });
@@ -240,9 +253,9 @@ impl DepthCamera {
 
     /// Calls `visit` with the index of each pixel that a triangle covers, the inverse depth there, and the
     /// triangle. A pixel is visited once for each surface that covers it.
-    fn rasterize(&self, mesh: &Mesh, first: usize, mut visit: impl FnMut(usize, f64, u32)) {
+    fn rasterize(&self, mesh: &Mesh, triangles: Range<usize>, mut visit: impl FnMut(usize, f64, u32)) {
         let size = DVec2::new(self.width_px.into(), self.height_px.into());
-        for triangle in first as u32..mesh.triangles.len() as u32 {
+        for triangle in triangles.start as u32..triangles.end as u32 {
             let Some(flat) = self.project(mesh, triangle) else {
                 continue;
             };

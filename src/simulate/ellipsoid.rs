@@ -65,6 +65,7 @@ impl EllipsoidSettings {
         let largest_stretch = self.half_axes_cm.recip().max_element();
         let mut positions = Vec::with_capacity(self.points);
         let mut normals = Vec::with_capacity(self.points);
+        let mut on_surface = 0_usize;
         for _ in 0..self.points.saturating_mul(DRAWS_PER_POINT) {
             if positions.len() == self.points {
                 break;
@@ -75,6 +76,7 @@ impl EllipsoidSettings {
             if rng.random::<f64>() * largest_stretch > stretch {
                 continue;
             }
+            on_surface += 1;
             let point = on_sphere * self.half_axes_cm + self.center_cm;
             let normal = gradient / stretch;
             if normal.dot(-point) <= 0.0 {
@@ -95,7 +97,7 @@ impl EllipsoidSettings {
             .map_err(|_| too_little)?;
         Ok(Simulated {
             cloud,
-            truth: self.truth(),
+            truth: self.truth(self.points as f64 / on_surface as f64),
         })
     }
 
@@ -132,7 +134,7 @@ impl EllipsoidSettings {
         Ok(())
     }
 
-    fn truth(&self) -> Truth {
+    fn truth(&self, coverage: f64) -> Truth {
         let up = DVec3::NEG_Y;
         let to_stem_end = up * self.half_axes_cm.y;
         let (revolution_axis, note) = self.uniqueness();
@@ -154,6 +156,7 @@ impl EllipsoidSettings {
             viewpoint: DVec3::ZERO,
             without_peduncle: false,
             hidden_by_leaf: None,
+            coverage: Some(coverage),
             settings: Settings::Ellipsoid(self.clone()),
         }
     }

@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
+use super::views::View;
+
 /// A point of a surface with its color (red, green, blue, 0 to 255).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vertex {
@@ -111,6 +113,12 @@ impl Mesh {
         self.labels.extend(&other.labels);
         self.triangles
             .extend(other.triangles.iter().map(|t| t.map(|i| i + offset)));
+    }
+
+    /// Moves the surface from the frame into that of a camera in it.
+    pub(super) fn seen_from(self, view: View) -> Self {
+        let to_camera = view.rotation.transpose();
+        self.moved(to_camera, -(to_camera * view.position_cm))
     }
 
     /// Moves the surface rigidly.

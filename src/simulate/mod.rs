@@ -12,13 +12,16 @@
 //! # Ok::<(), axiscope::simulate::SimulateError>(())
 //! ```
 
+mod coverage;
 mod depth_camera;
 mod ellipsoid;
 mod error;
 mod mesh;
 mod pepper;
 mod random;
+mod scan;
 mod truth;
+mod views;
 
 pub use depth_camera::DepthCamera;
 pub use ellipsoid::EllipsoidSettings;
@@ -26,3 +29,4 @@ pub use error::SimulateError;
 pub use pepper::{FruitColor, PepperSettings};
 pub use random::seeds;
 pub use truth::{Pose, Settings, Simulated, TrueAxis, Truth};
+pub use views::{CameraPose, ScanSettings};

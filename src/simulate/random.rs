@@ -19,6 +19,8 @@ pub(super) enum Stream {
     Leaf = 5,
     /// Noise and holes of the camera.
     Camera = 6,
+    /// Errors of the camera's poses.
+    CameraPoses = 7,
 }
 
 /// Returns the random numbers of `seed` for one purpose. `ChaCha` is the same on every platform and in every
@@ -26,6 +28,15 @@ pub(super) enum Stream {
 pub(super) fn stream(seed: u64, purpose: Stream) -> ChaCha8Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(purpose as u64);
+    rng
+}
+
+/// Returns the random numbers of `seed` for the camera's noise and holes in one of several views.
+pub(super) fn view_stream(seed: u64, view: usize) -> ChaCha8Rng {
+    /// The streams below are those of [`Stream`].
+    const FIRST: u64 = 1 << 32;
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(FIRST + view as u64);
     rng
 }
 

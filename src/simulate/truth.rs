@@ -100,6 +100,10 @@ pub struct Truth {
     pub without_peduncle: bool,
     /// The fraction of the fruit's and the peduncle's pixels that a leaf hides, measured; `None` without a leaf.
     pub hidden_by_leaf: Option<f64>,
+    /// The fraction of the fruit's surface, without peduncle and leaf, that was seen from any view at less than the
+    /// camera's grazing angle; `None` in truths that were written before this was measured.
+    #[serde(default)]
+    pub coverage: Option<f64>,
     /// The kind of simulation and its settings.
     #[serde(flatten)]
     pub settings: Settings,
@@ -108,6 +112,15 @@ pub struct Truth {
 impl Truth {
     /// The name and version of the format.
     pub const SCHEMA: &'static str = "axiscope.truth/1";
+
+    /// The lean: the angle between the axis and the plane across the view ray, in degrees, -90 to 90, positive where the
+    /// stem end leans towards the viewpoint. Eq. 16 gives axes in that plane only, so that each is wrong by the lean at
+    /// least.
+    pub fn lean_deg(&self) -> f64 {
+        let to_viewpoint = (self.viewpoint - self.center).normalize_or_zero();
+        let sin = self.axis.direction.dot(to_viewpoint);
+        sin.clamp(-1.0, 1.0).asin().to_degrees()
+    }
 
     /// Converts all lengths to another unit, except for the settings, which stay in centimeters.
     #[must_use]

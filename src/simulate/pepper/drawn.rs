@@ -24,7 +24,7 @@ pub(super) struct Drawn {
     body: Body,
     peduncle: Peduncle,
     camera_from_fruit: DMat3,
-    center_cm: DVec3,
+    pub(super) center_cm: DVec3,
     pub(super) paint: Paint,
     pub(super) leaf: Leaf,
 }
@@ -41,7 +41,13 @@ impl Drawn {
         let tilt = Tilt::draw(wanted, &mut pose);
         let center_cm = draw_center(wanted, &body, &peduncle, &mut pose);
         // A camera inside would see the skin's inner side. Irregular fruits reach out a little farther.
-        if center_cm.length() <= body.ball_cm() * (1.0 + 2.0 * wanted.asymmetry) {
+        let ball_cm = body.ball_cm() * (1.0 + 2.0 * wanted.asymmetry);
+        let mut cameras = wanted
+            .scan
+            .views(center_cm)
+            .into_iter()
+            .map(|view| view.position_cm);
+        if center_cm.length() <= ball_cm || cameras.any(|camera| camera.distance(center_cm) <= ball_cm) {
             return Err(SimulateError::ViewpointInside);
         }
         let mut colors = stream(seed, Stream::Color);
@@ -70,6 +76,7 @@ impl Drawn {
             center_cm: Some(center_cm),
             leaf_cover: wanted.leaf_cover,
             camera: wanted.camera.clone(),
+            scan: wanted.scan.clone(),
         };
         Ok(Self {
             settings,
@@ -115,6 +122,7 @@ impl Drawn {
             viewpoint: DVec3::ZERO,
             without_peduncle: false,
             hidden_by_leaf,
+            coverage: None,
             settings: Settings::Pepper(Box::new(self.settings)),
         }
     }

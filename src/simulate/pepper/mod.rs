@@ -8,10 +8,8 @@ mod peduncle;
 mod settings;
 
 use self::drawn::Drawn;
-use super::depth_camera::Measured;
-use super::random::{Stream, stream};
+use super::scan::Scene;
 use super::{SimulateError, Simulated};
-use crate::geometry::Cloud;
 
 pub use self::color::FruitColor;
 pub use self::settings::PepperSettings;
@@ -19,9 +17,13 @@ pub use self::settings::PepperSettings;
 impl PepperSettings {
     /// Draws the settings that are open, builds the fruit, and measures it by the camera.
     ///
-    /// The cloud is in centimeters in the camera's frame, a point for each pixel that measured one,
-    /// row by row, with colors and the labels of [`Cloud`], but without normals, which a camera does not measure.
-    /// A leaf is cropped to the rectangle of the image that the fruit takes up, as a detector's box would.
+    /// The cloud is in centimeters in the camera's frame, with colors and the labels of [`Cloud`]. Of one view it has a
+    /// point for each pixel that measured one, row by row, and no normals, which a camera does not measure. Of
+    /// several it has a point for each occupied voxel, with normals turned towards the cameras that saw it, in the frame
+    /// of the middle view. A leaf keeps its place between the middle view and the fruit; in each view it is cropped to
+    /// the rectangle of the image that the fruit takes up, as a detector's box would.
+    ///
+    /// [`Cloud`]: crate::geometry::Cloud
     ///
     /// # Errors
     /// Returns an error if a setting is out of range, or the camera sees nothing of the fruit.
@@ -29,47 +31,23 @@ impl PepperSettings {
         self.check()?;
         let drawn = Drawn::new(self)?;
         let camera = &self.camera;
-        let mut scene = drawn.fruit_in_camera();
-        let mut image = camera.look(&scene);
-        if image.covered() == 0 {
-            return Err(SimulateError::NothingVisible);
-        }
+        let mut scene = Scene::new(drawn.fruit_in_camera());
         let mut hidden_by_leaf = None;
         if self.leaf_cover > 0.0 {
+            let image = scene.fruit_in_middle_view(camera);
+            if image.covered() == 0 {
+                return Err(SimulateError::NothingVisible);
+            }
             let (leaf, hidden) = drawn.leaf.covering(self.leaf_cover, camera, &image, &drawn.paint);
-            let before = scene.triangles.len();
-            scene.append(&leaf);
-            let around_fruit = image.bounds();
-            camera.look_on(&scene, before, &mut image);
-            image.crop(around_fruit);
+            scene.add_leaf(&leaf);
             hidden_by_leaf = Some(hidden);
         }
-        let measured = camera.measure(&scene, &image, &mut stream(self.seed, Stream::Camera));
-        if !measured.iter().any(|m| m.label == Cloud::FRUIT) {
-            return Err(SimulateError::NothingVisible);
-        }
+        let scanned = scene.scan(camera, &self.scan, drawn.center_cm, self.seed)?;
+        let mut truth = drawn.into_truth(hidden_by_leaf);
+        truth.coverage = scanned.coverage;
         Ok(Simulated {
-            cloud: cloud_of(&measured),
-            truth: drawn.into_truth(hidden_by_leaf),
+            cloud: scanned.cloud,
+            truth,
         })
     }
-}
-
-/// Makes a cloud of the measured points.
-///
-/// # Panics
-/// Never: each point brings its own color and label.
-fn cloud_of(measured: &[Measured]) -> Cloud {
-    const LENGTHS: &str = "a color and a label for each point";
-    // Clamped to bytes before they become whole.
-    let byte = |channel: f32| channel.round().clamp(0.0, 255.0) as u8;
-    let colors = measured.iter().map(|m| {
-        let [r, g, b] = m.color.to_array().map(byte);
-        [r, g, b, u8::MAX]
-    });
-    Cloud::new(measured.iter().map(|m| m.point_in_camera).collect())
-        .with_colors(colors.collect())
-        .expect(LENGTHS)
-        .with_labels(measured.iter().map(|m| m.label).collect())
-        .expect(LENGTHS)
 }

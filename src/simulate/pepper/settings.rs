@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::FruitColor;
 use crate::simulate::error::{each_within, within};
-use crate::simulate::{DepthCamera, SimulateError};
+use crate::simulate::{DepthCamera, ScanSettings, SimulateError};
 
 /// A pepper and the camera that looks at it.
 ///
@@ -66,6 +66,8 @@ pub struct PepperSettings {
     pub leaf_cover: f64,
     /// The camera.
     pub camera: DepthCamera,
+    /// The views that are taken and fused.
+    pub scan: ScanSettings,
 }
 
 impl Default for PepperSettings {
@@ -95,6 +97,7 @@ impl Default for PepperSettings {
             center_cm: None,
             leaf_cover: 0.0,
             camera: DepthCamera::default(),
+            scan: ScanSettings::default(),
         }
     }
 }
@@ -103,6 +106,7 @@ impl PepperSettings {
     /// Checks the range of every setting, which NaN is out of.
     pub(super) fn check(&self) -> Result<(), SimulateError> {
         self.camera.check()?;
+        self.scan.check()?;
         self.check_shape()?;
         self.check_pose()?;
         within("leaf_cover", self.leaf_cover, (0.0, 0.9), "0 to 0.9")

@@ -3,6 +3,7 @@
 mod camera;
 mod ellipsoid;
 mod pepper;
+mod scans;
 mod seeds;
 mod truth;
 
