@@ -329,7 +329,11 @@ fn views_share_one_scale_and_cut_off_long_lines() {
         "{dots:?}"
     );
     assert!(b.1 < a.1, "y is up");
-    assert_eq!(svg.matches("clip-path=").count(), 2, "lines are cut off at the edge of their view");
+    assert_eq!(
+        svg.matches("clip-path=").count(),
+        2,
+        "lines are cut off at the edge of their view"
+    );
     chart.views[0].points.push(((0.0, 0.0), 7));
     assert!(matches!(
         Figure::from(chart).svg(),
