@@ -2,9 +2,12 @@
 
 use std::io::Write;
 use std::path::PathBuf;
+use std::time::Instant;
 
 use anyhow::Context;
-use axiscope::evaluate::reproduce::{ReproduceSettings, Reproduction, Scan, run_ellipsoids, run_peppers};
+use axiscope::evaluate::reproduce::{
+    Needs, PaperFigure, ReproduceSettings, Reproduction, Scan, run_ellipsoids, run_peppers,
+};
 use clap::Args;
 
 use super::options::{Depths, depths, grid_size, number};
@@ -39,6 +42,12 @@ pub(super) struct Reproduce {
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
+    /// At most 5 runs and 6 peppers: a tenth of the time, to see what comes out
+    #[arg(long)]
+    quick: bool,
+    /// Draw these figures alone, in a list with commas, and run only what they need
+    #[arg(long, value_name = "FIGURE", value_delimiter = ',', value_enum)]
+    figure: Vec<PaperFigure>,
 }
 
 fn arc(text: &str) -> Result<f64, String> {
@@ -57,8 +66,89 @@ fn degrees(text: &str, most: f64) -> Result<f64, String> {
 }
 
 pub(super) fn run(args: &Reproduce) -> anyhow::Result<()> {
+    let started = Instant::now();
     std::fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
-    let settings = ReproduceSettings {
+    let reproduction = experiments(args)?;
+    let files = if args.figure.is_empty() {
+        reproduction.files()?
+    } else {
+        let drawn = args
+            .figure
+            .iter()
+            .map(|&figure| reproduction.figure_files(figure));
+        drawn.collect::<Result<Vec<_>, _>>()?.concat()
+    };
+    for (name, bytes) in &files {
+        let path = args.out.join(name);
+        std::fs::write(&path, bytes).with_context(|| path.display().to_string())?;
+    }
+    if let Some((_, report)) = files.iter().find(|(name, _)| name == "report.md") {
+        std::io::stdout().lock().write_all(report)?;
+    }
+    let what = if args.figure.is_empty() {
+        "the report, its tables and its figures"
+    } else {
+        "the figures"
+    };
+    eprintln!(
+        "Wrote {what} to {} in {:.0} s.",
+        args.out.display(),
+        started.elapsed().as_secs_f64()
+    );
+    Ok(())
+}
+
+/// Runs the experiments that are needed.
+fn experiments(args: &Reproduce) -> anyhow::Result<Reproduction> {
+    let settings = settings(args);
+    let all = args.figure.is_empty();
+    let needed = |needs: Needs| all || args.figure.iter().any(|figure| figure.needs() == needs);
+    let mut results = Reproduction {
+        settings,
+        depths: Vec::new(),
+        scans: Vec::new(),
+        variations: Vec::new(),
+    };
+    let settings = &results.settings;
+    if needed(Needs::Ellipsoids) {
+        let bar = CountingBar::new("§ 3.1, ellipsoids", settings.depths_cm.len() * settings.runs);
+        results.depths = run_ellipsoids(settings, &bar)?;
+        bar.finish();
+    }
+    let planned = match settings.peppers {
+        0 => Vec::new(),
+        _ if needed(Needs::Scans) => settings.scans(),
+        _ if needed(Needs::MainScan) => vec![settings.main()],
+        _ => Vec::new(),
+    };
+    let varied = if all && !planned.is_empty() {
+        settings.variations()
+    } else {
+        Vec::new()
+    };
+    let sets = planned.len() + varied.len();
+    let run = |set: usize, scan: &Scan| {
+        let bar = CountingBar::new(&format!("§ 3.2, peppers, set {set} of {sets}"), settings.peppers);
+        let scanned = run_peppers(settings, scan, settings.readings_of(scan), &bar);
+        bar.finish();
+        scanned
+    };
+    for scan in &planned {
+        results.scans.push(run(results.scans.len() + 1, scan)?);
+    }
+    for variation in varied {
+        let scanned = run(
+            sets - settings.variations().len() + results.variations.len() + 1,
+            &variation.scan,
+        )?;
+        results.variations.push((variation, scanned));
+    }
+    Ok(results)
+}
+
+/// The settings that the options ask for.
+fn settings(args: &Reproduce) -> ReproduceSettings {
+    let mut settings = ReproduceSettings {
         depths_cm: args.z0.0.clone(),
         runs: args.runs as usize,
         points: args.points,
@@ -68,46 +158,9 @@ pub(super) fn run(args: &Reproduce) -> anyhow::Result<()> {
         leans_deg: args.lean.clone(),
         seed: args.seed,
     };
-    let bar = CountingBar::new("§ 3.1, ellipsoids", settings.depths_cm.len() * settings.runs);
-    let depths = run_ellipsoids(&settings, &bar)?;
-    bar.finish();
-
-    let (mut scans, mut variations) = (Vec::new(), Vec::new());
-    if settings.peppers > 0 {
-        let (planned, varied) = (settings.scans(), settings.variations());
-        let sets = planned.len() + varied.len();
-        let run = |set: usize, scan: &Scan| {
-            let title = format!("§ 3.2, peppers, set {} of {sets}", set + 1);
-            let bar = CountingBar::new(&title, settings.peppers);
-            let scanned = run_peppers(&settings, scan, settings.readings_of(scan), &bar);
-            bar.finish();
-            scanned
-        };
-        for scan in &planned {
-            scans.push(run(scans.len(), scan)?);
-        }
-        for variation in varied {
-            let scanned = run(planned.len() + variations.len(), &variation.scan)?;
-            variations.push((variation, scanned));
-        }
+    if args.quick {
+        settings.runs = settings.runs.min(5);
+        settings.peppers = settings.peppers.min(6);
     }
-
-    let reproduction = Reproduction {
-        settings,
-        depths,
-        scans,
-        variations,
-    };
-    for (name, bytes) in reproduction.files()? {
-        let path = args.out.join(name);
-        std::fs::write(&path, bytes).with_context(|| path.display().to_string())?;
-    }
-    std::io::stdout()
-        .lock()
-        .write_all(reproduction.report().as_bytes())?;
-    eprintln!(
-        "Wrote the report, its tables and its figures to {}.",
-        args.out.display()
-    );
-    Ok(())
+    settings
 }

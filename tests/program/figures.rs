@@ -330,7 +330,7 @@ fn views_share_one_scale_and_cut_off_long_lines() {
     );
     assert!(b.1 < a.1, "y is up");
     assert_eq!(
-        svg.matches("clip-path=").count(),
+        svg.matches("<clipPath id=").count(),
         2,
         "lines are cut off at the edge of their view"
     );

@@ -162,7 +162,7 @@ pub(super) fn fig5(settings: &ReproduceSettings) -> Result<Figure, ReproduceErro
         line("plane", BLACK, Dashes::Solid),
     ];
     let mut all = Vec::new();
-    for (turned_deg, name) in [(0.0_f64, "(a) imaged frontally"), (45.0, "(b) imaged obliquely")] {
+    for (turned_deg, name) in [(0.0_f64, "(a) frontally"), (45.0, "(b) obliquely")] {
         // The lobes turn with the plane: the same plane of the same fruit.
         let turned = PepperSettings {
             spin_deg: Some(turned_deg),
@@ -190,7 +190,7 @@ pub(super) fn fig5(settings: &ReproduceSettings) -> Result<Figure, ReproduceErro
         let within = normal.cross(DVec3::Y);
         let across = [(axis_line(center, within, 8.0), 3)];
         all.push(view(
-            format!("{name}, as the camera sees it"),
+            format!("{name}"),
             Direction::FRONT,
             surface.points(),
             key,
@@ -375,20 +375,14 @@ impl SamplePepper {
     fn from_several_sides(&self, with_reference: bool) -> Vec<View> {
         let oblique = Direction::from(DVec3::new(0.6, -0.5, -0.6).normalize());
         let directions = [
-            ("front", Direction::FRONT),
-            ("right", Direction::SIDE),
-            ("above", oblique),
+            ("the front", Direction::FRONT),
+            ("the right", Direction::SIDE),
+            ("above right", oblique),
         ];
         let variant = |(letter, analysis, reference): (&str, &Analysis, [DVec3; 2])| {
             directions.map(|(side, direction)| {
                 let real = with_reference.then_some(reference);
-                with_axes(
-                    format!("{letter} from the {side}").replace("the above", "above"),
-                    direction,
-                    analysis,
-                    real,
-                    9.0,
-                )
+                with_axes(format!("{letter} from {side}"), direction, analysis, real, 9.0)
             })
         };
         self.in_order().into_iter().flat_map(variant).collect()

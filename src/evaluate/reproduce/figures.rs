@@ -1,8 +1,9 @@
 //! The paper's Fig. 8, 12 and 13 from our runs, and the map of the error over coverage and lean.
 
-use super::findings::{Cell, PAPER_FIG_8_DEG, PAPER_FIG_8_RANGE_DEG, PEDUNCLE_VARIANTS};
-use super::readings::{AS_INTENDED, AS_PRINTED, TRUE_CENTER_MEAN_SCORE};
-use super::{EllipsoidDepth, PepperErrors, Reproduction};
+use super::findings::{Comparison, PAPER_FIG_8_DEG, PAPER_FIG_8_RANGE_DEG, PEDUNCLE_VARIANTS};
+use super::readings::{AS_INTENDED, AS_PRINTED, HALF, READINGS, TRUE_CENTER_MEAN_SCORE};
+use super::scans::arc_name;
+use super::{EllipsoidDepth, PepperErrors, Reproduction, Scan, Spread};
 use crate::charts::{
     BarChart, BarSeries, Figure, Guide, Heatmap, Labels, LineChart, LinePanel, LinePoint, LineSeries,
 };
@@ -72,13 +73,18 @@ pub(super) fn fig8(results: &Reproduction) -> Figure {
 }
 
 /// Fig. 12 (without the peduncle) and Fig. 13 (with it): the error of each cloud of the main scan.
-pub(super) fn error_per_pepper(results: &Reproduction, grid: usize, with_peduncle: bool) -> Option<Figure> {
-    let scanned = results.scans.get(results.settings.main_scan())?;
+pub(super) fn error_per_pepper(
+    results: &Reproduction,
+    grid: usize,
+    reading: usize,
+    with_peduncle: bool,
+) -> Option<Figure> {
+    let scanned = results.main_peppers()?;
     let values = |error: fn(&PepperErrors) -> f64| {
         let errors = scanned
             .peppers
             .iter()
-            .map(|p| p.variant(with_peduncle).grids[grid][AS_INTENDED].as_ref());
+            .map(|p| p.variant(with_peduncle).grids[grid][reading].as_ref());
         errors.map(|e| e.map(error)).collect()
     };
     let series = vec![
@@ -93,11 +99,16 @@ pub(super) fn error_per_pepper(results: &Reproduction, grid: usize, with_peduncl
     ];
     let paper = &PEDUNCLE_VARIANTS[usize::from(with_peduncle)];
     let title = format!(
-        "Error of {} simulated peppers {}, {}, u = {} (as Fig. {})",
+        "Error of {} simulated peppers {}, {}, u = {}{} (as Fig. {})",
         scanned.peppers.len(),
         paper.name,
         scanned.scan.arc_name(),
         results.settings.grid_sizes[grid],
+        if READINGS[reading].needs_half {
+            ", half need a partner"
+        } else {
+            ""
+        },
         paper.figure
     );
     let guides = vec![
@@ -120,47 +131,44 @@ pub(super) fn error_per_pepper(results: &Reproduction, grid: usize, with_peduncl
     Some(chart.into())
 }
 
-/// The mean error against § 3.2's reference over coverage and lean, of the mean over both of the paper's variants.
-pub(super) fn map(results: &Reproduction, grid: usize) -> Figure {
+/// The mean error against § 3.2's reference over coverage and lean, the mean over both of the paper's variants; `None`
+/// if a scan was not run.
+pub(super) fn map(results: &Reproduction, grid: usize) -> Option<Figure> {
     let settings = &results.settings;
-    let coverage = |arc: usize| {
-        let of_arc = &results.scans[arc * settings.leans_deg.len()..][..settings.leans_deg.len()];
-        let seen: Vec<f64> = of_arc
+    let scanned = |arc_deg: f64, lean_deg: f64| results.scanned(&Scan::new(arc_deg, lean_deg, settings.seed));
+    let mut columns = Vec::new();
+    for &arc_deg in &settings.arcs_deg {
+        let of_arc: Option<Vec<_>> = settings
+            .leans_deg
             .iter()
-            .flat_map(|s| &s.peppers)
-            .filter_map(|p| p.coverage)
+            .map(|&lean| scanned(arc_deg, lean))
             .collect();
-        seen.iter().sum::<f64>() / seen.len() as f64
+        let seen = of_arc?
+            .into_iter()
+            .flat_map(|s| &s.peppers)
+            .filter_map(|p| p.coverage);
+        let seen = Spread::of(seen).map_or("?".to_owned(), |s| format!("{:.0}", 100.0 * s.mean));
+        columns.push(format!("{}: {seen} % seen", arc_name(arc_deg)));
+    }
+    let cell = |arc_deg: f64, lean_deg: f64| {
+        let [without, with] = Comparison::of(scanned(arc_deg, lean_deg)?, grid, HALF)?.cells;
+        Some(f64::midpoint(without.to_reference.mean, with.to_reference.mean))
     };
-    let columns = settings.arcs_deg.iter().enumerate().map(|(arc, &deg)| {
-        format!(
-            "{}: {:.0} % seen",
-            super::scans::arc_name(deg),
-            100.0 * coverage(arc)
-        )
-    });
-    let cell = |lean: usize, arc: usize| {
-        let scanned = &results.scans[arc * settings.leans_deg.len() + lean];
-        let [without, with] =
-            [false, true].map(|with| Cell::of(scanned, grid, AS_INTENDED, with).map(|c| c.to_reference.mean));
-        Some(f64::midpoint(without?, with?))
-    };
-    let (rows, arcs) = (settings.leans_deg.len(), settings.arcs_deg.len());
-    Heatmap {
+    let row = |&lean: &f64| settings.arcs_deg.iter().map(|&arc| cell(arc, lean)).collect();
+    let title = format!(
+        "Error of {} peppers over what was seen and how they lean, u = {}",
+        settings.peppers, settings.grid_sizes[grid]
+    );
+    let map = Heatmap {
         labels: Labels::new(
-            format!(
-                "Error of {} peppers over what was seen and how they lean, u = {}",
-                settings.peppers, settings.grid_sizes[grid]
-            ),
+            title,
             "Camera's arc around the fruit, and the share of its surface that was seen",
             "Lean at most",
         ),
-        value_label: "Mean error with and without peduncle (°)".into(),
-        columns: columns.collect(),
+        value_label: "Mean error (°)".into(),
+        columns,
         rows: settings.leans_deg.iter().map(|lean| format!("{lean}°")).collect(),
-        cells: (0..rows)
-            .map(|lean| (0..arcs).map(|arc| cell(lean, arc)).collect())
-            .collect(),
-    }
-    .into()
+        cells: settings.leans_deg.iter().map(row).collect(),
+    };
+    Some(map.into())
 }

@@ -1,7 +1,7 @@
 //! The paper's numbers, ours beside them, and which of them are reproduced.
 
-use super::readings::AS_INTENDED;
-use super::{PepperErrors, ReproduceSettings, Reproduction, ScannedPeppers, Spread};
+use super::readings::{AS_INTENDED, HALF};
+use super::{PepperErrors, Reproduction, Scan, ScannedPeppers, Spread};
 
 /// The paper's mean error of § 3.1 and Fig. 8, in degrees.
 pub(super) const PAPER_FIG_8_DEG: f64 = 6.4710;
@@ -81,6 +81,8 @@ impl Cell {
 /// The means of both variants under one scan and one u, as intended.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Comparison {
+    /// The index of the reading.
+    pub(super) reading: usize,
     /// The index of u.
     pub(super) grid: usize,
     /// Without the peduncle, then with it.
@@ -89,9 +91,10 @@ pub(super) struct Comparison {
 
 impl Comparison {
     /// Compares a set of peppers on one grid; `None` if a variant has no axis at all.
-    pub(super) fn of(scanned: &ScannedPeppers, grid: usize) -> Option<Self> {
-        let cell = |with| Cell::of(scanned, grid, AS_INTENDED, with);
+    pub(super) fn of(scanned: &ScannedPeppers, grid: usize, reading: usize) -> Option<Self> {
+        let cell = |with| Cell::of(scanned, grid, reading, with);
         Some(Self {
+            reading,
             grid,
             cells: [cell(false)?, cell(true)?],
         })
@@ -112,14 +115,36 @@ impl Comparison {
 }
 
 impl Reproduction {
-    /// Every scan and u under which both means of § 3.2 are the paper's.
-    pub(super) fn reproducing(&self) -> Vec<(&ScannedPeppers, Comparison)> {
+    /// The peppers of one scan, if it was run.
+    pub(super) fn scanned(&self, scan: &Scan) -> Option<&ScannedPeppers> {
+        self.scans.iter().find(|scanned| scanned.scan == *scan)
+    }
+
+    /// The peppers of Fig. 12 and 13, if they were scanned.
+    pub(super) fn main_peppers(&self) -> Option<&ScannedPeppers> {
+        self.scanned(&self.settings.main())
+    }
+
+    /// The u and the reading whose means over the peppers of Fig. 12 and 13 come nearest to the paper's.
+    pub(super) fn nearest(&self) -> Option<Comparison> {
+        let compared = self.compared(self.main_peppers()?);
+        compared
+            .into_iter()
+            .min_by(|a, b| a.off_deg().total_cmp(&b.off_deg()))
+    }
+
+    /// One scan on every grid by either partner fraction.
+    fn compared(&self, scanned: &ScannedPeppers) -> Vec<Comparison> {
         let grids = 0..self.settings.grid_sizes.len();
-        let of_scan = |scanned| {
-            grids
-                .clone()
-                .filter_map(move |grid| Some((scanned, Comparison::of(scanned, grid)?)))
-        };
+        let pairs = grids.flat_map(|grid| [AS_INTENDED, HALF].map(|reading| (grid, reading)));
+        pairs
+            .filter_map(|(grid, reading)| Comparison::of(scanned, grid, reading))
+            .collect()
+    }
+
+    /// Every scan, u and partner fraction under which both means of § 3.2 are the paper's.
+    pub(super) fn reproducing(&self) -> Vec<(&ScannedPeppers, Comparison)> {
+        let of_scan = |scanned| self.compared(scanned).into_iter().map(move |c| (scanned, c));
         self.scans
             .iter()
             .flat_map(of_scan)
@@ -129,11 +154,11 @@ impl Reproduction {
 }
 
 /// The mean error of the upright candidate over the depths, and over the two sets of 45 of them if there are 46.
-pub(super) fn upright_means(settings: &ReproduceSettings, results: &Reproduction) -> Vec<(String, f64)> {
+pub(super) fn upright_means(results: &Reproduction) -> Vec<(String, f64)> {
     let errors: Vec<f64> = results.depths.iter().map(|d| d.upright_deg).collect();
     let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len() as f64;
     let range = |from: usize, to: usize| {
-        let z = &settings.depths_cm;
+        let z = &results.settings.depths_cm;
         format!("{} to {} cm, {} depths", z[from], z[to - 1], to - from)
     };
     let count = errors.len();

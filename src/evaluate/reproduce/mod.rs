@@ -1,24 +1,28 @@
 //! The paper's experiments (§ 3) on simulated clouds: their errors beside the paper's, as a report with
 //! tables and figures.
 
+mod catalog;
 mod clouds;
 mod ellipsoids;
 mod figures;
 mod findings;
+mod page;
 mod peppers;
 mod readings;
+mod report;
 mod scans;
 mod settings;
 mod spread;
 mod tables;
 
 use super::TableError;
-use crate::charts::{Figure, FigureError};
+use crate::charts::FigureError;
 use crate::method::AnalysisError;
 use crate::parallel::Cancelled;
 use crate::peduncle::PeduncleError;
 use crate::simulate::SimulateError;
 
+pub use catalog::{Needs, PaperFigure};
 pub use ellipsoids::{EllipsoidDepth, EllipsoidErrors, run_ellipsoids};
 pub use peppers::{PepperErrors, PepperVariant, ReproducedPepper, ScannedPeppers, run_peppers};
 pub use readings::{READINGS, Reading, ReadingCenter};
@@ -63,53 +67,49 @@ pub enum ReproduceError {
 }
 
 impl Reproduction {
-    /// The report in Markdown.
-    pub fn report(&self) -> String {
-        String::new()
+    /// The files of one figure, each with its name and bytes, as SVG and PNG. None where the experiments that it needs
+    /// were not run.
+    ///
+    /// # Errors
+    /// Returns an error if the figure cannot be made.
+    pub fn figure_files(&self, figure: PaperFigure) -> Result<Vec<(String, Vec<u8>)>, ReproduceError> {
+        let mut files = Vec::new();
+        for (name, figure) in figure.draw(self)? {
+            files.push((format!("{name}.svg"), figure.svg()?.into_bytes()));
+            files.push((format!("{name}.png"), figure.png(1.0)?));
+        }
+        Ok(files)
     }
 
-    /// The figures with their names.
-    fn figures(&self) -> Result<Vec<(String, Figure)>, ReproduceError> {
-        let settings = &self.settings;
-        let main = settings.main_grid();
-        let mut figures = vec![
-            ("fig3".to_owned(), clouds::fig3(settings)?),
-            ("fig5".to_owned(), clouds::fig5(settings)?),
-            ("fig7".to_owned(), clouds::fig7(settings)?),
-            ("fig8".to_owned(), figures::fig8(self)),
-        ];
-        if self.scans.is_empty() {
-            return Ok(figures);
-        }
-        let sample =
-            clouds::SamplePepper::new(&self.scans[settings.main_scan()].scan, settings.grid_sizes[main])?;
-        figures.push(("fig9".to_owned(), sample.fig9()));
-        figures.push(("fig10".to_owned(), sample.fig10()));
-        figures.push(("fig11".to_owned(), sample.fig11()));
-        for (name, with_peduncle) in [("fig12", false), ("fig13", true)] {
-            figures
-                .extend(figures::error_per_pepper(self, main, with_peduncle).map(|f| (name.to_owned(), f)));
-        }
-        for (grid, u) in settings.grid_sizes.iter().enumerate() {
-            figures.push((format!("map_u{u}"), figures::map(self, grid)));
-        }
-        Ok(figures)
-    }
-
-    /// The files of the reproduction, each with its name and bytes.
+    /// The files of the reproduction, each with its name and bytes: the report as `report.md` and, in one file with its
+    /// figures, `report.html`; the tables as CSV; the figures as SVG and PNG. Without peppers those of § 3.2 are
+    /// left out.
     ///
     /// # Errors
     /// Returns an error if a table or a figure cannot be made.
     pub fn files(&self) -> Result<Vec<(String, Vec<u8>)>, ReproduceError> {
-        let mut files = vec![
-            ("report.md".to_owned(), self.report().into_bytes()),
-            ("ellipsoids.csv".to_owned(), tables::ellipsoids(self)?),
-            ("peppers.csv".to_owned(), tables::peppers(self)?),
-        ];
-        for (name, figure) in self.figures()? {
-            files.push((format!("{name}.svg"), figure.svg()?.into_bytes()));
-            files.push((format!("{name}.png"), figure.png(1.0)?));
+        let mut files = vec![("ellipsoids.csv".to_owned(), tables::ellipsoids(self)?)];
+        if !self.scans.is_empty() {
+            files.push(("peppers.csv".to_owned(), tables::peppers(self)?));
         }
+        let (mut named, mut drawn) = (Vec::new(), Vec::new());
+        for figure in PaperFigure::ALL {
+            if figure.is_of_peppers() && self.scans.is_empty() {
+                continue;
+            }
+            let mut names = Vec::new();
+            for (name, figure) in figure.draw(self)? {
+                let (svg, name) = (figure.svg()?, format!("{name}.svg"));
+                files.push((name.replace(".svg", ".png"), figure.png(1.0)?));
+                files.push((name.clone(), svg.clone().into_bytes()));
+                names.push(name.clone());
+                drawn.push((name, svg));
+            }
+            named.push((figure, names));
+        }
+        let report = report::markdown(self, &named);
+        files.push(("report.html".to_owned(), page::page(&report, &drawn).into_bytes()));
+        files.push(("report.md".to_owned(), report.into_bytes()));
         Ok(files)
     }
 }

@@ -28,14 +28,20 @@ pub struct Reading {
     pub center: ReadingCenter,
     /// The way that scores are added up.
     pub aggregation: Aggregation,
+    /// Whether a plane needs a partner for half of the points, rather than for the share that goes with the aggregation.
+    pub needs_half: bool,
 }
 
 /// All readings, the two presets first.
-pub const READINGS: [Reading; 8] = {
+pub const READINGS: [Reading; 9] = {
     use Aggregation::{Mean, Sum};
     use ReadingCenter::{Equidistant, MeanRms, Sphere, True};
     const fn reading(center: ReadingCenter, aggregation: Aggregation) -> Reading {
-        Reading { center, aggregation }
+        Reading {
+            center,
+            aggregation,
+            needs_half: false,
+        }
     }
     [
         reading(MeanRms, Sum),
@@ -46,16 +52,22 @@ pub const READINGS: [Reading; 8] = {
         reading(MeanRms, Mean),
         reading(Sphere, Mean),
         reading(True, Mean),
+        Reading {
+            needs_half: true,
+            ..reading(Equidistant, Mean)
+        },
     ]
 };
 /// The indices of all [`READINGS`].
-pub(super) const EVERY_READING: [usize; READINGS.len()] = [0, 1, 2, 3, 4, 5, 6, 7];
+pub(super) const EVERY_READING: [usize; READINGS.len()] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
 /// The index of the preset "as printed" in [`READINGS`].
 pub(super) const AS_PRINTED: usize = 0;
 /// The index of the preset "as intended" in [`READINGS`].
 pub(super) const AS_INTENDED: usize = 1;
 /// The index of the true center with the mean of the scores.
 pub(super) const TRUE_CENTER_MEAN_SCORE: usize = 7;
+/// The index of the preset "as intended" with a partner for half of the points.
+pub(super) const HALF: usize = 8;
 
 impl Reading {
     /// The name that the report and its tables use.
@@ -73,6 +85,7 @@ impl Reading {
         let preset = match READINGS.iter().position(|r| *r == self) {
             Some(AS_PRINTED) => " (as printed)",
             Some(AS_INTENDED) => " (as intended)",
+            _ if self.needs_half => " (as intended, half)",
             _ => "",
         };
         format!("{center}, {aggregation}{preset}")
@@ -151,7 +164,7 @@ impl Analyzed<'_> {
             let of_center = |&&i: &&usize| READINGS[i].center == center;
             for (&u, results_of_grid) in self.grid_sizes.iter().zip(&mut results.grids) {
                 for &reading in self.readings.iter().filter(of_center) {
-                    let params = self.params(READINGS[reading].aggregation, method, u);
+                    let params = self.params(READINGS[reading], method, u);
                     match stages.analyze(&params, &()) {
                         Ok(analysis) => {
                             results.points = analysis.surface.len();
@@ -166,13 +179,18 @@ impl Analyzed<'_> {
         Ok(results)
     }
 
-    fn params(&self, aggregation: Aggregation, center: CenterMethod, u: usize) -> Params {
+    fn params(&self, reading: Reading, center: CenterMethod, u: usize) -> Params {
+        let aggregation = reading.aggregation;
         Params {
             u,
             normals: self.normals,
             center,
             aggregation,
-            min_partner_fraction: aggregation.default_min_partner_fraction(),
+            min_partner_fraction: if reading.needs_half {
+                0.5
+            } else {
+                aggregation.default_min_partner_fraction()
+            },
             filters: self.filters,
             ..Params::new(Preset::AsIntended, Unit::Centimeter)
         }

@@ -1,10 +1,15 @@
 //! The ways to scan peppers that § 3.2 is run under: what the paper leaves open, as settings.
 
+use glam::DVec3;
+
 use crate::method::NormalSource;
 use crate::simulate::{PepperSettings, ScanSettings};
 
 /// From one depth image of a fused scan to the next, in degrees.
 const DEG_BETWEEN_VIEWS: f64 = 15.0;
+
+/// The distance of a fruit in the middle of the image, in centimeters: the middle of those that the simulator draws.
+const DISTANCE_CM: f64 = 45.0;
 
 /// A way to scan and analyze a set of peppers.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +28,9 @@ pub struct Scan {
     pub pose_noise: f64,
     /// The edge of the voxel grid of § 2.1 in centimeters.
     pub voxel_cm: f64,
+    /// Whether the fruit lies anywhere in the image, 30 to 60 cm ahead, rather than in its middle: the camera of a scan is
+    /// aimed at the fruit.
+    pub anywhere: bool,
 }
 
 impl Scan {
@@ -36,6 +44,7 @@ impl Scan {
             normals_to_viewpoint: false,
             pose_noise: 1.0,
             voxel_cm: 0.2,
+            anywhere: false,
         }
     }
 
@@ -56,6 +65,7 @@ impl Scan {
             seed,
             max_tilt_towards_camera_deg: self.lean_deg,
             max_tilt_sideways_deg: self.lean_deg,
+            center_cm: (!self.anywhere).then_some(DVec3::new(0.0, 0.0, DISTANCE_CM)),
             scan: ScanSettings {
                 views: self.views(),
                 arc_deg: self.arc_deg,

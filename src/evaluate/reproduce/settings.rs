@@ -1,6 +1,6 @@
 //! The settings of the experiments, and the scans that follow from them.
 
-use super::readings::{AS_INTENDED, EVERY_READING};
+use super::readings::{AS_INTENDED, EVERY_READING, HALF};
 use super::scans::Scan;
 
 /// The u that § 3.2 states with Fig. 9; § 2.2 says u > 4.
@@ -40,7 +40,52 @@ pub struct Variation {
     pub scan: Scan,
 }
 
+impl Default for ReproduceSettings {
+    /// The paper's depths, runs and number of peppers; one view and three fused scans.
+    fn default() -> Self {
+        Self {
+            depths_cm: (25..=70).map(f64::from).collect(),
+            runs: 50,
+            points: 1500,
+            peppers: 27,
+            grid_sizes: vec![5, PAPER_U, 7, 10, 12, 14],
+            arcs_deg: vec![0.0, 120.0, 180.0, 240.0],
+            leans_deg: vec![8.0, 15.0, 30.0],
+            seed: 0,
+        }
+    }
+}
+
 impl ReproduceSettings {
+    /// The options of the command that differ from the default, each after a space.
+    pub(super) fn options(&self) -> String {
+        fn list<T: ToString>(values: &[T]) -> String {
+            values.iter().map(T::to_string).collect::<Vec<_>>().join(",")
+        }
+        let depths = |s: &Self| match s.depths_cm[..] {
+            [first, second, .., last] => format!("{first}..{last}:{}", second - first),
+            [first, last] => format!("{first}..{last}:{}", last - first),
+            [ref single @ ..] => list(single),
+        };
+        let options: [(&str, &dyn Fn(&Self) -> String); 8] = [
+            ("z0", &depths),
+            ("runs", &|s| s.runs.to_string()),
+            ("points", &|s| s.points.to_string()),
+            ("peppers", &|s| s.peppers.to_string()),
+            ("u", &|s| list(&s.grid_sizes)),
+            ("arc", &|s| list(&s.arcs_deg)),
+            ("lean", &|s| list(&s.leans_deg)),
+            ("seed", &|s| s.seed.to_string()),
+        ];
+        let default = Self::default();
+        let differing = options
+            .into_iter()
+            .filter(|(_, value)| value(self) != value(&default));
+        differing
+            .map(|(name, value)| format!(" --{name} {}", value(self)))
+            .collect()
+    }
+
     /// The index of the u that the figures are drawn for: the paper's 6, else the first.
     pub(super) fn main_grid(&self) -> usize {
         self.grid_sizes.iter().position(|&u| u == PAPER_U).unwrap_or(0)
@@ -65,9 +110,14 @@ impl ReproduceSettings {
         self.arcs_deg.iter().flat_map(of_arc).collect()
     }
 
+    /// The scan that Fig. 12 and 13 are drawn for.
+    pub fn main(&self) -> Scan {
+        self.scans().swap_remove(self.main_scan())
+    }
+
     /// The index in [`Self::scans`] of the scan that Fig. 12 and 13 are drawn for: the arc that is nearest to ±90° and the
     /// least lean.
-    pub(super) fn main_scan(&self) -> usize {
+    fn main_scan(&self) -> usize {
         let scans = self.scans();
         let key = |scan: &Scan| ((scan.arc_deg - 180.0).abs(), scan.lean_deg);
         let order = |&a: &usize, &b: &usize| {
@@ -80,7 +130,7 @@ impl ReproduceSettings {
     /// The readings that a scan is analyzed by: all of them for the scan of Fig. 12 and 13 and for one view of the same
     /// fruits, else the intended one.
     pub fn readings_of(&self, scan: &Scan) -> &'static [usize] {
-        let main = &self.scans()[self.main_scan()];
+        let main = &self.main();
         let one_view = Scan {
             arc_deg: 0.0,
             ..main.clone()
@@ -88,13 +138,13 @@ impl ReproduceSettings {
         if scan == main || *scan == one_view {
             &EVERY_READING
         } else {
-            &[AS_INTENDED]
+            &[AS_INTENDED, HALF]
         }
     }
 
     /// The changes to the scan of Fig. 12 and 13.
     pub fn variations(&self) -> Vec<Variation> {
-        let main = &self.scans()[self.main_scan()];
+        let main = &self.main();
         let mut variations = Vec::new();
         let mut vary = |name: String, change: &dyn Fn(&mut Scan)| {
             let mut scan = main.clone();
@@ -123,6 +173,9 @@ impl ReproduceSettings {
             scan.pose_noise = 3.0;
         });
         vary("voxel grid of 0.3 cm".to_owned(), &|scan| scan.voxel_cm = 0.3);
+        vary("the fruit anywhere in the image".to_owned(), &|scan| {
+            scan.anywhere = true
+        });
         variations
     }
 }
