@@ -148,7 +148,7 @@ pub(super) fn map(results: &Reproduction, grid: usize) -> Option<Figure> {
             .flat_map(|s| &s.peppers)
             .filter_map(|p| p.coverage);
         let seen = Spread::of(seen).map_or("?".to_owned(), |s| format!("{:.0}", 100.0 * s.mean));
-        columns.push(format!("{}: {seen} % seen", arc_name(arc_deg)));
+        columns.push(format!("{}, {seen} %", arc_name(arc_deg)));
     }
     let cell = |arc_deg: f64, lean_deg: f64| {
         let [without, with] = Comparison::of(scanned(arc_deg, lean_deg)?, grid, HALF)?.cells;

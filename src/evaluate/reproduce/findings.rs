@@ -10,6 +10,9 @@ pub(super) const PAPER_FIG_8_RANGE_DEG: (f64, f64) = (5.0, 8.0);
 /// A figure counts as reproduced within this, in degrees.
 pub(super) const TOLERANCE_DEG: f64 = 1.5;
 
+/// Beyond this a plane across the axis won rather than one along it, in degrees.
+pub(super) const MISSED_DEG: f64 = 45.0;
+
 /// One of the two variants of § 3.2 and its figures in the paper.
 pub(super) struct PeduncleVariant {
     /// Its name, as in "peppers with their peduncle".
@@ -53,6 +56,10 @@ pub(super) struct Cell {
     pub(super) center_off_cm: Spread,
     /// Clouds with an axis.
     pub(super) clouds: usize,
+    /// Those whose axis is more than [`MISSED_DEG`] off the reference.
+    pub(super) missed: usize,
+    /// The errors against the reference of all others.
+    pub(super) others: Option<Spread>,
 }
 
 impl Cell {
@@ -74,6 +81,8 @@ impl Cell {
             best_candidate: spread(|e| e.best_candidate_deg)?,
             center_off_cm: spread(|e| e.center_off_cm)?,
             clouds: errors.len(),
+            missed: errors.iter().filter(|e| e.to_reference_deg > MISSED_DEG).count(),
+            others: Spread::of((errors.iter().map(|e| e.to_reference_deg)).filter(|&e| e <= MISSED_DEG)),
         })
     }
 }

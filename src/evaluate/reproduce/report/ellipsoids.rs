@@ -71,13 +71,13 @@ pub(super) fn section(results: &Reproduction) -> String {
     });
     format!(
         "## § 3.1: the simulated ellipsoid\n\n\
-         **The upright candidate explains the mean.** With n = (1, 0, 0), the plane that parts the image into left and right, Eq. 16 gives the axis (0, −z₀, 5 cm), \
-         which is atan(5 cm / z₀) from image-up, whatever the points, the normals and the scores are: {}. It is the paper's {PAPER_FIG_8_DEG:.2}°. This plane is a candidate where u is odd. \
-         **It does not explain the curve**: it falls from {} to {}, and the paper's stays between 5° and 8°.\n\n\
+         **The upright candidate alone.** With n = (1, 0, 0), the plane that parts the image into left and right, Eq. 16 gives the axis (0, −z₀, 5 cm), \
+         which is atan(5 cm / z₀) from image-up, whatever the points, the normals and the scores are: {}. The paper has {PAPER_FIG_8_DEG:.2}°. This plane is a candidate where u is odd. \
+         **The mean is the paper's where all its depths are run, the curve is not**: it falls from {} to {}, and the paper's stays between 5° and 8°.\n\n\
          **The scores do not pick it.** Every plane that holds the depth axis mirrors the ellipsoid onto itself, and of those the camera sees the same part from both sides only for the one that holds its line of sight, \
          which is turned by atan(3 / 5) = 31° from upright. The winners, u = {}:\n\n{}\n\n\
          The mean error in degrees for each u, and in parentheses the share of the runs that the upright candidate wins:\n\n{}\n\n\
-         Against the nearest axis in the ellipsoid's equator, each of which is an axis of symmetry, the winners are as near as the paper's figure or nearer; against image-up they are not.{far}",
+         Each axis in the ellipsoid's equator is an axis of symmetry, and a column above gives the angle to the nearest one. Against image-up the error says mostly which of many equally true planes happened to win.{far}",
         sets.join(", "),
         ends(results.depths.first()),
         ends(results.depths.last()),

@@ -259,7 +259,7 @@ fn assumptions(results: &Reproduction) -> String {
         [
             "how they were scanned",
             "KinFu: a moved camera and fused frames, “an incomplete 3D reconstruction (the part located opposite the camera was invisible)”",
-            "a depth image every 15° of an arc around the fruit, fused with a voxel grid of 0.2 cm; poses off by 0.2° and 0.1 cm. ±120° leaves hardly a part invisible, ±60° and ±90° do",
+            "a depth image every 15° of an arc around the fruit, fused with a voxel grid of 0.2 cm; poses off by 0.2° and 0.1 cm. ±120° shows most of the far side, ±60° and ±90° leave a part of it invisible",
         ],
         [
             "lean",
