@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
+use super::MeshFormatError;
 use crate::parallel::{Cancelled, PartOf, Watch};
 use crate::ply::{self, PlyCloud, PlyError, Problem};
+use crate::simulate::MeshError;
 
 /// A cloud and its file.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,6 +60,12 @@ pub enum ReadErrorKind {
     /// It is no PLY file, or a malformed one.
     #[error(transparent)]
     Ply(PlyError),
+    /// It is no mesh, or a malformed one.
+    #[error(transparent)]
+    MeshFormat(#[from] MeshFormatError),
+    /// Its triangles cannot be used.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
     /// Reading was called off.
     #[error("reading was called off")]
     Cancelled,
@@ -174,7 +182,8 @@ fn digest(bytes: &[u8], watch: &dyn Watch) -> Result<String, Cancelled> {
 /// The number of bytes between two questions to the watch: a few milliseconds.
 const PIECE: u64 = 4 << 20;
 
-fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
+/// Reads a regular file of a size that memory can hold.
+pub(super) fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadErrorKind> {
     // Before the file is opened: opening a pipe waits for a writer.
     let metadata = std::fs::metadata(path)?;
     if metadata.is_dir() {

@@ -4,6 +4,7 @@
 mod axis_files;
 mod cloud_file;
 mod listing;
+mod mesh_file;
 mod picked;
 mod read;
 mod request;
@@ -16,6 +17,7 @@ pub use cloud_file::{
     sha256_hex,
 };
 pub use listing::{clouds_in, files_behind};
+pub use mesh_file::{MeshFile, MeshFormatError, read_mesh};
 pub use picked::PickedPoints;
 pub use read::{Fruit, FruitError, PeduncleChoice, companion_path, removed_path, truth_path};
 pub use request::Request;

@@ -93,6 +93,13 @@ impl Cloud {
         self
     }
 
+    /// Leaves out colors and labels unless they are to be kept.
+    pub(crate) fn without_columns(mut self, keep_colors: bool, keep_labels: bool) -> Self {
+        self.colors = self.colors.filter(|_| keep_colors);
+        self.labels = self.labels.filter(|_| keep_labels);
+        self
+    }
+
     fn check(&self, column: &'static str, rows: usize) -> Result<(), LengthMismatch> {
         let points = self.len();
         if rows == points {

@@ -164,6 +164,22 @@ pub enum Problem {
         /// Whether the row has lists, which may add to the expected count.
         at_least: bool,
     },
+    /// A mesh is asked for, and there are no faces.
+    #[error(
+        "it has no faces (an element \"face\" with a list \"vertex_indices\"); a cloud of points cannot be scanned"
+    )]
+    NoFaces,
+    /// A face has a corner that is no vertex.
+    #[error("a face has the corner {index}, and the vertices are 0 to {}", .vertices - 1)]
+    NoSuchVertex {
+        /// The corner's index.
+        index: String,
+        /// The number of vertices.
+        vertices: usize,
+    },
+    /// A mesh has vertices whose x, y or z is infinite or no number.
+    #[error("{0} vertices have coordinates that are not finite")]
+    VerticesNotFinite(usize),
     /// Reading was called off; nothing is wrong.
     #[error("reading was called off")]
     Cancelled,

@@ -11,6 +11,7 @@ mod binary;
 mod collect;
 mod columns;
 mod error;
+mod faces;
 mod header;
 mod note;
 mod number;
@@ -18,6 +19,7 @@ mod scalar;
 mod write;
 
 pub use error::{Place, PlyError, Problem};
+pub use faces::{PlyMesh, read_mesh};
 pub use note::Note;
 pub use write::{Encoding, Precision, WriteError, WriteOptions, write};
 

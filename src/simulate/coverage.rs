@@ -3,8 +3,8 @@
 use super::depth_camera::{DepthCamera, DepthImage};
 use super::mesh::Mesh;
 
-/// The greatest slope of the surface against the image plane for which neighboring pixels' depths are compared.
-const STEEPEST: f64 = 8.0;
+/// The depth by which a triangle may lie behind the surface in its pixel and still be that surface, relative to its depth.
+const SAME_SURFACE: f64 = 1e-3;
 
 /// The triangles of a mesh that were seen from any view.
 #[derive(Debug)]
@@ -25,19 +25,18 @@ impl Seen {
         for (seen, corners) in self.0.iter_mut().zip(&mesh.triangles) {
             let [a, b, c] = corners.map(|i| mesh.positions[i as usize]);
             let middle = (a + b + c) / 3.0;
-            let Some(pixel) = camera.pixel_of(middle).filter(|_| !*seen) else {
+            let Some((pixel, ray)) = camera.pixel_of(middle).filter(|_| !*seen) else {
                 continue;
             };
-            let cos = ((b - a).cross(c - a).normalize_or_zero())
-                .dot(middle.normalize())
-                .abs();
-            // Within half a pixel the depth of a slanting surface changes by up to this much.
-            let slope = (1.0 - cos * cos).sqrt() / cos.max(STEEPEST.recip());
-            let tolerance_cm = middle.z * (slope / camera.focal_px + 1e-4);
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            let cos = normal.dot(middle.normalize()).abs();
+            // The triangle's plane is compared where the pixel's depth was taken: a slanting surface is a little nearer
+            // or farther there than in the triangle's middle.
+            let depth_cm = normal.dot(middle) / normal.dot(ray);
             *seen = cos > 0.0
                 && cos >= cos_grazing
                 && range.contains(&middle.z)
-                && middle.z <= image.depths_cm[pixel] + tolerance_cm;
+                && depth_cm <= image.depths_cm[pixel] + middle.z * SAME_SURFACE;
         }
     }
 

@@ -208,15 +208,17 @@ impl DepthCamera {
         })
     }
 
-    /// Returns the index of the pixel nearest to a point's image; `None` if the point is outside the image.
-    pub(super) fn pixel_of(&self, point: DVec3) -> Option<usize> {
+    /// Returns the index of the pixel nearest to a point's image, and the point at depth 1 that the pixel looks at; `None`
+    /// if the point is outside the image.
+    pub(super) fn pixel_of(&self, point: DVec3) -> Option<(usize, DVec3)> {
         if point.z < 1e-3 {
             return None;
         }
         let pixel = (point.truncate() * self.focal_px / point.z + self.middle()).round();
         let size = DVec2::new(self.width_px.into(), self.height_px.into());
         let inside = pixel.cmpge(DVec2::ZERO).all() && pixel.cmplt(size).all();
-        inside.then(|| pixel.y as usize * self.width_px as usize + pixel.x as usize)
+        let index = || pixel.y as usize * self.width_px as usize + pixel.x as usize;
+        inside.then(|| (index(), self.ray(pixel)))
     }
 
     /// Renders the nearest surface of a range of the mesh's triangles in each pixel, without errors.

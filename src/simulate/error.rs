@@ -26,6 +26,21 @@ pub enum SimulateError {
         /// Points asked for.
         wanted: usize,
     },
+    /// The camera stands at the point that it looks at.
+    #[error("the camera stands at the point that it looks at")]
+    LooksAtItself,
+    /// A mesh does not fit between the camera's nearest and farthest depth.
+    #[error(
+        "the mesh is {size_cm:.1} cm across, and the camera sees from {near_cm} to {far_cm} cm only: is the mesh's unit right?"
+    )]
+    MeshTooLarge {
+        /// The diameter of a ball around the mesh.
+        size_cm: f64,
+        /// The camera's nearest depth.
+        near_cm: f64,
+        /// Its farthest.
+        far_cm: f64,
+    },
     /// No point of the fruit was seen: it is outside the image or the camera's range, or hidden.
     #[error(
         "the camera sees no point of the fruit: it is outside the image or the camera's range, or hidden"

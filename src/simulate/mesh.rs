@@ -79,6 +79,23 @@ impl Mesh {
         mesh.finish()
     }
 
+    /// Makes a surface of triangles whose corners have a color and a label each.
+    pub(super) fn of_triangles(
+        positions: Vec<DVec3>,
+        colors: Vec<Vec3>,
+        labels: Vec<i32>,
+        triangles: Vec<[u32; 3]>,
+    ) -> Self {
+        let mesh = Self {
+            positions,
+            normals: Vec::new(),
+            colors,
+            labels,
+            triangles,
+        };
+        mesh.finish()
+    }
+
     fn push(&mut self, vertex: Vertex, label: i32) {
         self.positions.push(vertex.position);
         self.colors.push(vertex.color);

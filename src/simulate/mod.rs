@@ -1,4 +1,5 @@
-//! Clouds whose axis is known: the paper's ellipsoid, a pepper, and the depth camera that looks at them.
+//! Clouds whose axis is known: the paper's ellipsoid, a pepper, and the depth camera that looks at them, from one place or
+//! from several.
 //!
 //! A pure room: settings go in, a [`Simulated`] comes out, and the same settings always give the
 //! same points to the bit. Everything is made in centimeters in the camera's frame (x right, y down,
@@ -17,16 +18,22 @@ mod depth_camera;
 mod ellipsoid;
 mod error;
 mod mesh;
+mod mesh_scan;
 mod pepper;
 mod random;
 mod scan;
+mod trajectory;
+mod triangle_mesh;
 mod truth;
 mod views;
 
 pub use depth_camera::DepthCamera;
 pub use ellipsoid::EllipsoidSettings;
 pub use error::SimulateError;
+pub use mesh_scan::{MeshScanSettings, ScannedMesh};
 pub use pepper::{FruitColor, PepperSettings};
 pub use random::seeds;
+pub use trajectory::{TrajectoryError, parse_trajectory};
+pub use triangle_mesh::{MeshError, TriangleMesh};
 pub use truth::{Pose, Settings, Simulated, TrueAxis, Truth};
 pub use views::{CameraPose, ScanSettings};

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::{EllipsoidSettings, PepperSettings};
+use super::{EllipsoidSettings, MeshScanSettings, PepperSettings};
 use crate::geometry::{Cloud, Unit};
 
 /// A cloud and the truth about it.
@@ -27,12 +27,12 @@ pub struct TrueAxis {
 /// The pose of the fruit: `point_in_camera = rotation · point_in_fruit + translation`.
 ///
 /// The fruit's frame has its origin in the fruit's center and its y axis towards the stem end; an
-/// upright fruit of zero spin has x to the image's right, y up and z towards the camera.
+/// upright fruit of zero spin has x to the image's right, y up and z towards the camera. A mesh has its file's own frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Three rows of a rotation matrix.
     pub rotation: [[f64; 3]; 3],
-    /// The fruit's center in the camera's frame, in the truth's unit.
+    /// The fruit's center, or the origin of a mesh's frame, in the camera's frame, in the truth's unit.
     pub translation: DVec3,
 }
 
@@ -60,12 +60,14 @@ pub enum Settings {
     Ellipsoid(EllipsoidSettings),
     /// A pepper before a depth camera.
     Pepper(Box<PepperSettings>),
+    /// A mesh before a depth camera.
+    Mesh(Box<MeshScanSettings>),
 }
 
 /// The truth about a simulated cloud: the content of a `.truth.json` file.
 ///
 /// Lengths are in [`Truth::unit`], the cloud's own, except in the settings, whose names say `_cm`.
-/// In JSON the settings are two fields: `kind` (`"ellipsoid"` or `"pepper"`) and `settings`.
+/// In JSON the settings are two fields: `kind` (`"ellipsoid"`, `"pepper"` or `"mesh"`) and `settings`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
     /// [`Truth::SCHEMA`].
@@ -139,30 +141,10 @@ impl Truth {
 
 impl Simulated {
     /// Converts points and truth to another unit.
-    ///
-    /// # Panics
-    /// Never: the columns keep their lengths.
     #[must_use]
     pub fn in_unit(self, unit: Unit) -> Self {
-        let from = self.truth.unit;
-        let mut cloud = Cloud::new(
-            self.cloud
-                .positions()
-                .iter()
-                .map(|&p| rescale(p, from, unit))
-                .collect(),
-        );
-        if let Some(normals) = self.cloud.normals() {
-            cloud = cloud.with_normals(normals.to_vec()).expect(LENGTHS);
-        }
-        if let Some(colors) = self.cloud.colors() {
-            cloud = cloud.with_colors(colors.to_vec()).expect(LENGTHS);
-        }
-        if let Some(labels) = self.cloud.labels() {
-            cloud = cloud.with_labels(labels.to_vec()).expect(LENGTHS);
-        }
         Self {
-            cloud,
+            cloud: cloud_in_unit(&self.cloud, self.truth.unit, unit),
             truth: self.truth.in_unit(unit),
         }
     }
@@ -190,9 +172,15 @@ impl Simulated {
     }
 }
 
-/// The reason why a column always fits: simulated points are at most meters away and thus finite in any
-/// unit, so none is left out.
-const LENGTHS: &str = "a column keeps its length";
+/// Converts simulated points, which are at most meters away and thus finite in any unit.
+pub(super) fn cloud_in_unit(cloud: &Cloud, from: Unit, to: Unit) -> Cloud {
+    let positions = cloud.positions().iter().map(|&p| rescale(p, from, to));
+    Cloud::new(positions.collect()).with_columns(
+        cloud.normals().map(<[_]>::to_vec),
+        cloud.colors().map(<[_]>::to_vec),
+        cloud.labels().map(<[_]>::to_vec),
+    )
+}
 
 fn rescale(length: DVec3, from: Unit, to: Unit) -> DVec3 {
     if from == to {

@@ -57,6 +57,50 @@ fn simulated_clouds_repeat_byte_by_byte_and_know_their_truth() {
 }
 
 #[test]
+fn views_from_several_places_are_fused_and_repeat() {
+    let folder = TempDir::new().unwrap();
+    let options = "pepper --seed 4 --views 5 --arc 120 --arc-up 40 --pose-noise 0.3,0.1 --voxel-cm 0.3";
+    let first = simulate(&folder, options, "a.ply");
+    let again = simulate(&folder, options, "b.ply");
+    assert_eq!(std::fs::read(&first).unwrap(), std::fs::read(again).unwrap());
+    let truth = std::fs::read_to_string(first.with_extension("truth.json")).unwrap();
+    let truth: Value = serde_json::from_str(&truth).unwrap();
+    assert_eq!(truth["settings"]["scan"]["views"], 5);
+    assert_eq!(truth["settings"]["scan"]["pose_noise_deg"], 0.3);
+    assert!(
+        truth["coverage"].as_f64().unwrap() > 0.45,
+        "{}",
+        truth["coverage"]
+    );
+    let cloud = axiscope::fruit::read_cloud(&first).unwrap().ply.cloud;
+    assert!(cloud.normals().is_some());
+
+    // A trajectory: the camera stands still, then a hand's breadth to the right.
+    let poses = folder.path().join("poses.txt");
+    std::fs::write(&poses, "# time and pose\n0 1 2 3 0 0 0 1\n0.5 1.1 2 3 0 0 0 1\n").unwrap();
+    let from_poses = format!("pepper --seed 4 --poses {}", poses.display());
+    let taken = simulate(&folder, &from_poses, "c.ply");
+    let truth = std::fs::read_to_string(taken.with_extension("truth.json")).unwrap();
+    let truth: Value = serde_json::from_str(&truth).unwrap();
+    assert_eq!(truth["settings"]["scan"]["poses"].as_array().unwrap().len(), 2);
+
+    std::fs::write(&poses, "0 1 2 3 0 0 0 1\n0 1 2 3 0 0 nan 1\n").unwrap();
+    let ran = run(["simulate", "pepper", "--poses", poses.to_str().unwrap()]);
+    assert_eq!(ran.status, 1);
+    assert!(ran.err.contains("poses.txt: line 2 is not a pose"), "{}", ran.err);
+    assert_eq!(run(["simulate", "pepper", "--views", "0"]).status, 2);
+    assert_eq!(
+        run(["simulate", "pepper", "--arc", "90"]).status,
+        2,
+        "of one view"
+    );
+    assert_eq!(
+        run(["simulate", "pepper", "--views", "3", "--poses", "x"]).status,
+        2
+    );
+}
+
+#[test]
 fn a_simulated_cloud_in_meters_gives_the_same_sums_in_centimeters() {
     let folder = TempDir::new().unwrap();
     let sums = |unit: &str| {

@@ -11,3 +11,4 @@ mod evaluating;
 mod evaluating_peduncle;
 mod exchanging;
 mod figures;
+mod scanning;

@@ -1,20 +1,23 @@
 //! `axiscope simulate`: clouds with a known axis, with the truth about each in a file beside it.
 
+mod camera;
 mod pepper;
+mod scan;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use axiscope::geometry::Unit;
+use axiscope::geometry::{Cloud, Unit};
 use axiscope::ply::{self, Encoding, WriteOptions};
-use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, seeds};
+use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, Truth, seeds};
 use clap::{Args, Subcommand};
 use glam::DVec3;
 
 use super::options::{Depths, depths, number, pair, position};
 use super::{progress, usage_error};
 use pepper::Pepper;
+use scan::Scan;
 
 #[derive(Debug, Args)]
 pub(super) struct Simulate {
@@ -28,6 +31,8 @@ enum Shape {
     Ellipsoid(Ellipsoid),
     /// A lobed, tapered pepper with a peduncle, as a depth camera sees it
     Pepper(Box<Pepper>),
+    /// A mesh from a file, as a depth camera sees it
+    Scan(Box<Scan>),
 }
 
 /// The number of the clouds, and their files.
@@ -44,18 +49,26 @@ struct Output {
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Unit of the file's coordinates
-    #[arg(long, value_enum, default_value = "cm")]
-    unit: Unit,
     /// Encoding of the numbers in the file
     #[arg(long, value_enum, default_value = "binary")]
     encoding: Encoding,
+}
+
+/// The unit of clouds that are made from nothing.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+struct OutputUnit {
+    /// Unit of the file's coordinates
+    #[arg(long, value_enum, default_value = "cm")]
+    unit: Unit,
 }
 
 #[derive(Debug, Args)]
 struct Ellipsoid {
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    unit: OutputUnit,
     /// Half-axes along x, y and z, in cm
     #[arg(long, value_name = "X,Y,Z", default_value = "2.5,2.5,2", value_parser = position, allow_hyphen_values = true)]
     half_axes_cm: DVec3,
@@ -73,10 +86,18 @@ struct Ellipsoid {
     noise_cm: f64,
 }
 
+/// Sets a field if its option is given.
+fn set<T>(field: &mut T, option: Option<T>) {
+    if let Some(value) = option {
+        *field = value;
+    }
+}
+
 pub(super) fn run(args: &Simulate) -> anyhow::Result<()> {
     match &args.shape {
         Shape::Ellipsoid(args) => ellipsoids(args),
         Shape::Pepper(args) => peppers(args),
+        Shape::Scan(args) => scan::run(args),
     }
 }
 
@@ -106,12 +127,9 @@ fn ellipsoids(args: &Ellipsoid) -> anyhow::Result<()> {
         );
     }
     let jobs = jobs.into_iter().map(|(name, z0, seed)| (name, at(z0, seed)));
-    write_all(
-        &args.output,
-        "ellipsoid",
-        &jobs.collect::<Vec<_>>(),
-        EllipsoidSettings::simulate,
-    )
+    write_all(&args.output, "ellipsoid", &jobs.collect::<Vec<_>>(), |settings| {
+        Ok(of_simulated(settings.simulate()?, args.unit.unit))
+    })
 }
 
 fn peppers(args: &Pepper) -> anyhow::Result<()> {
@@ -125,13 +143,30 @@ fn peppers(args: &Pepper) -> anyhow::Result<()> {
         (format!("pepper_{i:03}"), settings)
     });
     write_all(&args.output, "pepper", &jobs.collect::<Vec<_>>(), |settings| {
-        let simulated = settings.simulate()?;
-        Ok(if args.without_peduncle {
-            simulated.without_peduncle()
-        } else {
-            simulated
-        })
+        let mut simulated = settings.simulate()?;
+        if args.without_peduncle {
+            simulated = simulated.without_peduncle();
+        }
+        Ok(of_simulated(simulated, args.unit.unit))
     })
+}
+
+/// A cloud with its unit, and the truth about it, where there is one.
+struct Made {
+    cloud: Cloud,
+    unit: Unit,
+    seed: u64,
+    truth: Option<Truth>,
+}
+
+fn of_simulated(simulated: Simulated, unit: Unit) -> Made {
+    let Simulated { cloud, truth } = simulated.in_unit(unit);
+    Made {
+        cloud,
+        unit,
+        seed: truth.seed,
+        truth: Some(truth),
+    }
 }
 
 /// Simulates each job and writes it, one after the other. The same seed gives the same bytes.
@@ -139,11 +174,13 @@ fn write_all<S>(
     output: &Output,
     shape: &str,
     jobs: &[(String, S)],
-    simulate: impl Fn(&S) -> Result<Simulated, SimulateError>,
+    simulate: impl Fn(&S) -> Result<Made, SimulateError>,
 ) -> anyhow::Result<()> {
     let simulate = |settings: &S| {
         simulate(settings).map_err(|error| match error {
-            SimulateError::Setting { .. } | SimulateError::ViewpointInside => usage_error(&error.to_string()),
+            SimulateError::Setting { .. } | SimulateError::ViewpointInside | SimulateError::LooksAtItself => {
+                usage_error(&error.to_string())
+            }
             _ => error.into(),
         })
     };
@@ -157,13 +194,14 @@ fn write_all<S>(
         } else {
             path
         };
-        let simulated = simulate(settings)?;
-        write_cloud(&path, &simulated, output)?;
-        eprintln!(
-            "Wrote {} ({} points) and its truth beside it.",
-            path.display(),
-            simulated.cloud.len()
-        );
+        let made = simulate(settings)?;
+        write_cloud(&path, &made, output)?;
+        let truth = if made.truth.is_some() {
+            "and its truth beside it"
+        } else {
+            "without a truth, since its axis is not known"
+        };
+        eprintln!("Wrote {} ({} points) {truth}.", path.display(), made.cloud.len());
         return Ok(());
     }
     let folder = output.out.clone().unwrap_or_else(|| format!("{shape}s").into());
@@ -177,39 +215,47 @@ fn write_all<S>(
     std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
     let bar = progress::bar("Simulating {wide_bar} {pos}/{len}");
     bar.set_length(jobs.len() as u64);
+    let mut truths = 0;
     for (name, settings) in jobs {
-        let simulated = simulate(settings).with_context(|| name.clone())?;
-        write_cloud(&folder.join(format!("{name}.ply")), &simulated, output)?;
+        let made = simulate(settings).with_context(|| name.clone())?;
+        truths += usize::from(made.truth.is_some());
+        write_cloud(&folder.join(format!("{name}.ply")), &made, output)?;
         bar.inc(1);
     }
     bar.finish_and_clear();
-    eprintln!(
-        "Wrote {} clouds with their truths to {}.",
-        jobs.len(),
-        folder.display()
-    );
+    let with = if truths > 0 { "with their truths " } else { "" };
+    eprintln!("Wrote {} clouds {with}to {}.", jobs.len(), folder.display());
     Ok(())
 }
 
 /// Writes `NAME.ply` and `NAME.truth.json`, each whole or not at all.
-fn write_cloud(path: &Path, simulated: &Simulated, output: &Output) -> anyhow::Result<()> {
-    let simulated = simulated.clone().in_unit(output.unit);
-    let truth = &simulated.truth;
+fn write_cloud(path: &Path, made: &Made, output: &Output) -> anyhow::Result<()> {
+    let truth_path = path.with_extension("truth.json");
+    if made.truth.is_none() && truth_path.exists() {
+        anyhow::bail!(
+            "{}: this would be taken for the truth about the new cloud, which has none; remove it or write elsewhere",
+            truth_path.display()
+        );
+    }
     let comments = [format!(
         "simulated by axiscope {}, seed {}",
-        truth.program_version, truth.seed
+        env!("CARGO_PKG_VERSION"),
+        made.seed
     )];
     let mut bytes = Vec::new();
     let options = WriteOptions {
-        unit: Some(output.unit),
+        unit: Some(made.unit),
         comments: &comments,
         encoding: output.encoding,
         ..WriteOptions::default()
     };
-    ply::write(&mut bytes, &simulated.cloud, &options)?;
+    ply::write(&mut bytes, &made.cloud, &options)?;
     write_whole(path, &bytes)?;
+    let Some(truth) = &made.truth else {
+        return Ok(());
+    };
     let json = serde_json::to_string_pretty(truth)? + "\n";
-    write_whole(&path.with_extension("truth.json"), json.as_bytes())
+    write_whole(&truth_path, json.as_bytes())
 }
 
 /// Writes a file under a temporary name and then renames it, so that no reader finds half of it.

@@ -7,7 +7,8 @@ use axiscope::simulate::{FruitColor, PepperSettings, Settings, Truth};
 use clap::Args;
 use glam::DVec3;
 
-use super::Output;
+use super::camera::{CameraOptions, ViewOptions};
+use super::{Output, OutputUnit, set};
 use crate::cli::options::{pair, position};
 
 /// The settings of a pepper; the seed draws those that are not given.
@@ -16,6 +17,8 @@ use crate::cli::options::{pair, position};
 pub(super) struct Pepper {
     #[command(flatten)]
     pub(super) output: Output,
+    #[command(flatten)]
+    pub(super) unit: OutputUnit,
     /// Leave the peduncle's points out: the paper's second variant (§ 3.2)
     #[arg(long)]
     pub(super) without_peduncle: bool,
@@ -82,18 +85,10 @@ pub(super) struct Pepper {
     /// Fraction of the fruit that a leaf in front of it hides
     #[arg(long, value_name = "F", help_heading = "Camera")]
     leaf_cover: Option<f64>,
-    /// Standard deviation of a depth at 40 cm, in cm; it grows with the square of the distance
-    #[arg(long, value_name = "CM", help_heading = "Camera")]
-    noise_cm: Option<f64>,
-    /// Step of the depths, which are whole multiples of it, in cm; 0 for none
-    #[arg(long, value_name = "CM", help_heading = "Camera")]
-    depth_step_cm: Option<f64>,
-    /// Angle between ray and normal beyond which pixels begin to fail, in degrees
-    #[arg(long, value_name = "DEG", help_heading = "Camera")]
-    grazing_deg: Option<f64>,
-    /// Fraction of all other pixels that fail at random
-    #[arg(long, value_name = "F", help_heading = "Camera")]
-    dropout: Option<f64>,
+    #[command(flatten)]
+    camera: CameraOptions,
+    #[command(flatten)]
+    views: ViewOptions,
 }
 
 impl Pepper {
@@ -125,17 +120,9 @@ impl Pepper {
         set(&mut s.max_tilt_sideways_deg, self.max_tilt_sideways_deg);
         set(&mut s.distance_cm, self.distance_cm);
         set(&mut s.leaf_cover, self.leaf_cover);
-        set(&mut s.camera.noise_cm, self.noise_cm);
-        set(&mut s.camera.step_cm, self.depth_step_cm);
-        set(&mut s.camera.grazing_deg, self.grazing_deg);
-        set(&mut s.camera.dropout, self.dropout);
+        self.camera.apply(&mut s.camera);
+        self.views.apply(&mut s.scan)?;
         Ok(s)
-    }
-}
-
-fn set<T>(field: &mut T, option: Option<T>) {
-    if let Some(value) = option {
-        *field = value;
     }
 }
 
@@ -145,11 +132,8 @@ fn read_settings(path: &Path) -> anyhow::Result<PepperSettings> {
     if let Ok(truth) = serde_json::from_str::<Truth>(&text) {
         return match truth.settings {
             Settings::Pepper(settings) => Ok(*settings),
-            Settings::Ellipsoid(_) => {
-                anyhow::bail!(
-                    "{}: these are an ellipsoid's settings, not a pepper's",
-                    path.display()
-                )
+            Settings::Ellipsoid(_) | Settings::Mesh(_) => {
+                anyhow::bail!("{}: these are not a pepper's settings", path.display())
             }
         };
     }

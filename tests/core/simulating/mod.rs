@@ -2,6 +2,8 @@
 
 mod camera;
 mod ellipsoid;
+mod mesh_files;
+mod meshes;
 mod pepper;
 mod scans;
 mod seeds;
@@ -53,7 +55,7 @@ fn labelled(simulated: &Simulated, label: i32) -> Vec<DVec3> {
 fn settings_of(truth: &Truth) -> &PepperSettings {
     match &truth.settings {
         Settings::Pepper(settings) => settings,
-        Settings::Ellipsoid(_) => panic!("not a pepper"),
+        _ => panic!("not a pepper"),
     }
 }
 

@@ -19,7 +19,9 @@ fn sha256(simulated: &Simulated) -> String {
             hash.update(x.to_le_bytes());
         }
     }
-    cloud.colors().into_iter().flatten().for_each(|c| hash.update(c));
+    for color in cloud.colors().into_iter().flatten() {
+        hash.update(color);
+    }
     for label in cloud.labels().into_iter().flatten() {
         hash.update(label.to_le_bytes());
     }
