@@ -43,9 +43,11 @@
 //! | Module | Contents |
 //! | --- | --- |
 //! | [`parallel`] | work on several cores, its progress and its cancellation |
+//! | [`files`] | files read up to a limit, and written whole or not at all |
 //! | [`neighbors`] | the exact nearest neighbors of many queries at once |
 //! | [`geometry`] | point clouds with their unit, planes, lines and angles, normals (Eq. 2), filters |
 //! | [`method`] | the paper, a file a step: center (Eq. 3), candidate planes (Eq. 4–10), partners (Eq. 11–14), score (Eq. 15), axis (Eq. 16) |
+//! | [`estimate`] | estimators of the axis side by side: the paper's plane and fitted bodies, with confidence and occlusion |
 //! | [`peduncle`] | the points of the peduncle and the two reference axes that they give (§ 3.2) |
 //! | [`simulate`] | ellipsoids (§ 2.1) and peppers before a depth camera, with their true axes |
 //! | [`annotate`] | true axes set by hand: their files, the agreement between annotators, exchange with other programs |
@@ -89,7 +91,9 @@ pub mod annotate;
 pub mod app;
 #[cfg(feature = "reports")]
 pub mod charts;
+pub mod estimate;
 pub mod evaluate;
+pub mod files;
 pub mod fruit;
 pub mod geometry;
 pub mod method;

@@ -137,12 +137,13 @@ pub const AXIS_ENDING: &str = ".axis.json";
 /// Parses the name of an axis file: the slug and the number of the copy. Returns `None` if it is not an axis file of this
 /// cloud.
 pub fn axis_file_of(cloud: &Path, name: &OsStr) -> Option<(String, u32)> {
-    let stem = cloud.file_stem()?.to_str()?;
+    // The name of the cloud need not be Unicode, the rest is.
     let middle = name
-        .to_str()?
-        .strip_suffix(AXIS_ENDING)?
-        .strip_prefix(stem)?
-        .strip_prefix('.')?;
+        .as_encoded_bytes()
+        .strip_prefix(cloud.file_stem()?.as_encoded_bytes())?
+        .strip_prefix(b".")?
+        .strip_suffix(AXIS_ENDING.as_bytes())?;
+    let middle = std::str::from_utf8(middle).ok()?;
     let (slug, copy) = match middle.rsplit_once('.') {
         None => (middle, 1),
         Some((slug, copy)) => (slug, copy.parse().ok().filter(|&copy| copy > 1)?),

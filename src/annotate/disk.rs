@@ -1,6 +1,6 @@
 //! An annotator's files on a disk. Every write is synced before it counts as done.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, Metadata, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -77,8 +77,14 @@ impl Files for DiskFiles {
         let Some(file) = self.open_journal(path) else {
             return Err(io::ErrorKind::NotFound.into());
         };
-        if file.metadata()?.len() < at {
+        let open = file.metadata()?;
+        if open.len() < at {
             return Err(io::Error::other("it has become shorter"));
+        }
+        if !is_at(&open, path) {
+            return Err(io::Error::other(
+                "another program has removed or replaced it; open the cloud again",
+            ));
         }
         file.set_len(at)?;
         file.seek(SeekFrom::Start(at))?;
@@ -88,17 +94,28 @@ impl Files for DiskFiles {
     }
 
     fn replace(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        let aside = beside(path, ".tmp");
-        let mut file = File::create(&aside)?;
+        // A link stays one: the file that it names is replaced.
+        let target = if path.is_symlink() {
+            path.canonicalize()?
+        } else {
+            path.to_owned()
+        };
+        let aside = beside(&target, ".tmp");
+        // One that a killed program has left; or a link that would lead elsewhere.
+        match std::fs::remove_file(&aside) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+        let mut file = OpenOptions::new().write(true).create_new(true).open(&aside)?;
         let written = file.write_all(bytes).and_then(|()| file.sync_all());
         drop(file);
-        let done = written.and_then(|()| std::fs::rename(&aside, path));
+        let done = written.and_then(|()| std::fs::rename(&aside, &target));
         if done.is_err() {
             // The first error is the one to report.
             let _ = std::fs::remove_file(&aside);
         }
         done?;
-        sync_folder_of(path)
+        sync_folder_of(&target)
     }
 
     fn remove(&mut self, path: &Path) -> io::Result<()> {
@@ -132,6 +149,19 @@ fn beside(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
     name.push(ending);
     path.with_file_name(name)
+}
+
+/// Whether an open file is still the one of that name, so that what is written to it can be found again.
+#[cfg(unix)]
+fn is_at(open: &Metadata, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    std::fs::metadata(path).is_ok_and(|there| (there.dev(), there.ino()) == (open.dev(), open.ino()))
+}
+
+/// Whether there is still a file of that name: elsewhere an open file cannot be replaced.
+#[cfg(not(unix))]
+fn is_at(_: &Metadata, path: &Path) -> bool {
+    path.exists()
 }
 
 /// Syncs the folder of a path: a new name is on the disk only once its folder is.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Annotation, CloudId, Confidence, Ends, EndsError, Judgment, Method, Role};
 use crate::geometry::{Unit, angle_between_directions_rad};
+use crate::text::one_line;
 
 /// The name of the format, without its version.
 const FORMAT: &str = "axiscope.axis/";
@@ -88,7 +89,7 @@ impl Annotation {
     /// # Errors
     /// Returns an error if the file is of a newer version, is not an axis file, or contradicts itself.
     pub fn from_json(text: &[u8]) -> Result<Self, FileError> {
-        let malformed = |error: serde_json::Error| FileError::Malformed(error.to_string());
+        let malformed = |error: serde_json::Error| FileError::Malformed(one_line(&error.to_string()));
         let head: Head = serde_json::from_slice(text).map_err(malformed)?;
         let version = head.schema.strip_prefix(FORMAT).and_then(|v| v.parse().ok());
         match version {

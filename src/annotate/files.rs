@@ -51,6 +51,12 @@ pub enum StoreError {
         /// The system's error.
         error: io::Error,
     },
+    /// The annotation is longer than an axis file may be. Nothing was changed.
+    #[error("{}: the note is too long: an axis file has at most {} bytes", path.display(), super::LONGEST_FILE)]
+    TooLong {
+        /// The axis file.
+        path: PathBuf,
+    },
     /// Another program holds the journal.
     #[error("{}: another program is annotating this cloud under this name", path.display())]
     InUse {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::files::failed;
 use super::journal::{Journal, JournalError, read_journal};
-use super::{Annotation, Author, CloudId, FileError, Files, Notice, StoreError};
+use super::{Annotation, Author, CloudId, FileError, Files, LONGEST_FILE, Notice, StoreError};
 
 /// The number of names that are tried.
 pub(super) const COPIES: u32 = 99;
@@ -17,11 +17,16 @@ pub(super) enum Candidate<T> {
     Free,
     Own(T),
     Foreign(String),
+    /// The name itself is impossible, and so are those of further copies.
+    Impossible(io::Error),
 }
 
 /// Reads the axis in a file. Returns the reason, as the end of a sentence, if it is not this author's axis of this cloud.
 pub(super) fn axis_of(bytes: &[u8], cloud: &CloudId, author: &Author) -> Result<Annotation, String> {
     let axis = Annotation::from_json(bytes).map_err(|error: FileError| error.to_string())?;
+    if axis.to_json().len() as u64 > LONGEST_FILE {
+        return Err("it is too long for an axis".into());
+    }
     if axis.cloud.sha256 != cloud.sha256 {
         return Err("it belongs to another cloud".into());
     }
@@ -38,6 +43,7 @@ pub(super) fn candidate<T>(
     match read {
         Ok(None) => Candidate::Free,
         Ok(Some(bytes)) => parse(bytes).map_or_else(Candidate::Foreign, Candidate::Own),
+        Err(error) if error.kind() == io::ErrorKind::InvalidFilename => Candidate::Impossible(error),
         Err(error) => Candidate::Foreign(format!("it cannot be read ({error})")),
     }
 }
@@ -75,6 +81,7 @@ pub(super) fn find_journal(
             let error = io::Error::other(reason);
             return Err(StoreError::Io { path, error });
         }
+        Candidate::Impossible(error) => return Err(failed(&path, error)),
     };
     Ok((path, journal, kept))
 }
@@ -92,6 +99,7 @@ pub(super) fn choose_file<T>(
             Candidate::Own(content) => ours = Some((path, content)),
             Candidate::Free => free = free.or(Some(path)),
             Candidate::Foreign(reason) => kept.push((path, reason)),
+            Candidate::Impossible(error) => return Err(failed(&path, error)),
         }
     }
     let (path, content) = match ours {

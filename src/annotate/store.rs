@@ -135,8 +135,8 @@ impl Store {
     /// Makes a new annotation the current one and saves it. `now` is the time in RFC 3339, see [`super::now`].
     ///
     /// # Errors
-    /// Returns an error if the edit is not on the disk. It is kept all the same, and saved with the next one or by
-    /// [`Store::save`].
+    /// Returns [`StoreError::TooLong`] if no axis file can hold the edit, which is then refused. Returns any other error if
+    /// the edit is not on the disk; it is kept all the same, and saved with the next one or by [`Store::save`].
     pub fn edit(&mut self, mut judgment: Judgment, now: &str) -> Result<(), StoreError> {
         self.notice_foreign_edit();
         // A computed axis that was seen once cannot be unseen, so undone edits count too.
@@ -153,6 +153,10 @@ impl Store {
             modified: now.into(),
             program: concat!("axiscope ", env!("CARGO_PKG_VERSION")).into(),
         };
+        if state.to_json().len() as u64 > LONGEST_FILE {
+            let path = self.axis.clone();
+            return Err(StoreError::TooLong { path });
+        }
         self.push(state, now);
         self.save()
     }

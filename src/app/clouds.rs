@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use super::App;
-use super::inspector::stages::Source;
 use super::samples::Sample;
+use super::source::{ScanFromHere, Source};
 use super::state::{Entry, PlaneChoice, State};
 use crate::fruit::clouds_in;
 
@@ -44,10 +44,34 @@ impl App {
     }
 
     pub(super) fn open_sample(&mut self, sample: Sample) {
-        let place = self.context.state.add(Source::Bundled(sample));
+        self.add_and_show(Source::Bundled(sample));
+    }
+
+    pub(super) fn add_and_show(&mut self, source: Source) {
+        let place = self.context.state.add(source);
         self.list_changed(false);
         self.context.state.true_axes.leave_subject();
         self.show(place);
+    }
+
+    /// Makes a cloud of the points that a depth camera in the place of the view's eye would see, in that camera's frame.
+    pub(super) fn scan_from_here(&mut self) {
+        let state = &self.context.state;
+        let Some(whole) = state.source() else { return };
+        let scan = Source::Scanned(ScanFromHere::new(whole, &state.camera));
+        let mut request = state.settings.request.clone();
+        // The camera is at the origin of its own frame.
+        request.params.viewpoint = glam::DVec3::ZERO;
+        self.context.set_request(request, None);
+        self.inspector.forget_framing();
+        self.add_and_show(scan);
+    }
+
+    /// Writes the current cloud to a file beside the interface.
+    pub(super) fn save_cloud(&mut self, path: PathBuf) {
+        if let Some(source) = self.context.state.source().cloned() {
+            self.saves.submit(move |()| source.save(&path));
+        }
     }
 
     pub(super) fn show(&mut self, place: usize) {
@@ -99,8 +123,7 @@ impl State {
             problems: Vec::new(),
         };
         // A sample makes room for the first file of one's own.
-        self.entries
-            .retain(|entry| matches!(entry.source, Source::File(_)));
+        self.entries.retain(|entry| entry.source.is_file());
         self.current = self.current.filter(|&i| i < self.entries.len());
         let entries = self.entries.iter().enumerate();
         let mut known: HashMap<Source, usize> = entries

@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use super::many::commands::ManyCommand;
 use super::peduncle::commands::PeduncleCommand;
 use super::samples::Sample;
+use super::simulator::SimulatorCommand;
 use super::state::PlaneChoice;
 use super::tool::Tool;
 use super::true_axes::commands::TrueAxesCommand;
@@ -30,6 +31,8 @@ pub enum Command {
     Go(isize),
     /// Take the current cloud off the list.
     Close,
+    /// Something about the simulated pepper.
+    Simulate(SimulatorCommand),
     /// Read the current cloud again.
     Reload,
 
@@ -89,6 +92,12 @@ pub enum Command {
     Project(Projection),
     /// Take a tool.
     Use(Tool),
+    /// Take the eye of the view as the viewpoint `p_v` of the method.
+    LookFromHere,
+    /// Make a cloud of the points that a depth camera in the place of the eye would see.
+    ScanFromHere,
+    /// Write the current cloud, which lies in no file, to a PLY file; its truth beside it where there is one.
+    SaveCloud(PathBuf),
     /// Put the fruit center somewhere, in the file's unit and frame.
     MoveCenter(DVec3),
     /// Pick the peduncle.

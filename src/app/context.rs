@@ -1,6 +1,7 @@
 //! The state and the services that the parts of the program share. [`App`](super::App) lends them to the part that works.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use super::command::Command;
 use super::inspector::key::AnalysisKey;
@@ -9,6 +10,7 @@ use super::state::{Message, Settings, State};
 use super::workers::{Crashed, Pool};
 use crate::evaluate::CloudTags;
 use crate::fruit::Request;
+use crate::simulate::PepperSettings;
 use crate::text::sentence;
 use crate::undo::History;
 
@@ -16,6 +18,8 @@ use crate::undo::History;
 #[derive(Debug, Clone)]
 pub(super) enum Step {
     Settings(Box<Settings>),
+    /// The settings of the simulated pepper.
+    Simulated(Arc<PepperSettings>),
     /// The tags and the note of a cloud.
     Tags {
         path: PathBuf,

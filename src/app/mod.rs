@@ -20,6 +20,8 @@ pub mod many;
 pub mod peduncle;
 mod samples;
 mod session;
+mod simulator;
+mod source;
 mod state;
 mod tool;
 pub mod true_axes;
@@ -38,16 +40,18 @@ use inspector::Inspector;
 use many::{Many, ManyState};
 use peduncle::PeduncleTools;
 use true_axes::TrueAxes;
-use workers::{Pool, Repaint};
+use workers::{Pool, Queue, Repaint};
 
 pub use command::Command;
 pub use inspector::command_line::{command_line, quoted};
 pub use inspector::image::page;
 pub use inspector::navigate::{default_camera, dragged};
-pub use inspector::stages::{AnalyzedFruit, Source};
+pub use inspector::stages::AnalyzedFruit;
 pub use peduncle::{PeduncleCommand, PeduncleState};
 pub use samples::Sample;
 pub use session::{Session, SessionError};
+pub use simulator::{SimulatedPepper, SimulatorCommand, SimulatorState, Slider, SliderGroup, Trail};
+pub use source::{ScanFromHere, Source};
 pub use state::{Entry, Message, PlaneChoice, Settings, State, TruthChoice};
 pub use tool::Tool;
 pub use true_axes::{TrueAxesCommand, TrueAxesState};
@@ -59,6 +63,7 @@ pub struct App {
     peduncle: PeduncleTools,
     true_axes: TrueAxes,
     many: Many,
+    saves: Queue<(), Result<String, String>>,
 }
 
 impl App {
@@ -80,6 +85,7 @@ impl App {
             peduncle: PeduncleTools::new(pool),
             true_axes: TrueAxes::new(pool),
             many: Many::new(pool),
+            saves: Queue::new(pool, ()),
         })
     }
 
@@ -113,6 +119,9 @@ impl App {
                 }
             }
             Command::Close => self.close(),
+            Command::Simulate(command) => self.simulate(&command),
+            Command::ScanFromHere => self.scan_from_here(),
+            Command::SaveCloud(path) => self.save_cloud(path),
 
             Command::EndGesture => cx.undo.end_gesture(),
             Command::Undo => self.travel(History::undo),
@@ -139,10 +148,14 @@ impl App {
     /// Takes what the jobs have made, and asks for what is wanted now: to be called once a frame. `elapsed` is the time
     /// since the last call.
     pub fn update(&mut self, elapsed: Duration) {
-        let cx = &mut self.context;
-        self.many.update(elapsed, cx);
+        self.many.update(elapsed, &mut self.context);
         // The background waits while a frame may wait for the current cloud.
         self.many.set_yielding(true);
+        while let Some((_, result)) = self.saves.take_within(Duration::ZERO) {
+            self.context.say_result(result);
+        }
+        self.update_simulated();
+        let cx = &mut self.context;
         self.inspector.update(elapsed, cx);
         self.true_axes.update(cx);
         self.inspector.update_view(cx);
@@ -161,7 +174,10 @@ impl App {
 
     /// Whether somebody waits for a result: the background's work on all clouds does not count.
     pub fn is_current_busy(&self) -> bool {
-        self.inspector.is_busy() || self.peduncle.is_busy() || self.true_axes.is_busy()
+        self.inspector.is_busy()
+            || self.peduncle.is_busy()
+            || self.true_axes.is_busy()
+            || self.saves.is_busy()
     }
 
     /// Waits until every edit of an axis is written.
@@ -205,6 +221,11 @@ impl App {
             Some(Step::Settings(settings)) => {
                 std::mem::swap(&mut **settings, &mut cx.state.settings);
                 cx.state.previewed = None;
+            }
+            Some(Step::Simulated(settings)) => {
+                if let Some(present) = &mut cx.state.simulator.settings {
+                    std::mem::swap(settings, present);
+                }
             }
             Some(Step::Tags { path, tagged }) => {
                 let now = self.many.tagged(&cx.state.many.rows, path);

@@ -5,10 +5,14 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::state::{Settings, State};
-use crate::app::inspector::stages::Source;
+use crate::app::source::Source;
 use crate::app::true_axes::state::KeptTrueAxes;
+use crate::files::{read_regular, write_whole};
 use crate::view::Style;
 use crate::view::{Coloring, Overlays, Theme};
+
+/// The longest session that is read, in bytes.
+const LONGEST: u64 = 64 << 20;
 
 /// Settings, what was open, and how it was shown.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -125,7 +129,7 @@ impl Session {
             .enumerate()
             .filter_map(|(i, entry)| match &entry.source {
                 Source::File(path) => Some((i, std::path::absolute(path).unwrap_or_else(|_| path.clone()))),
-                Source::Bundled(_) => None,
+                _ => None,
             })
             .collect();
         Self {
@@ -146,22 +150,26 @@ impl Session {
     /// The session that lies at `path`; the first one where there is none.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be read. One that makes no sense is moved aside, so that it is not
-    /// overwritten.
+    /// Returns an error if the file cannot be read. One that makes no sense, or is of another version, is moved aside, so
+    /// that it is not overwritten.
     pub fn read(path: &Path) -> Result<Self, SessionError> {
         let io = |error| SessionError::Io {
             path: path.to_owned(),
             error,
         };
-        let text = match std::fs::read_to_string(path) {
+        let text = match read_regular(path, LONGEST) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::first()),
             Err(error) => return Err(io(error)),
         };
-        match serde_json::from_str::<Self>(&text) {
+        match serde_json::from_slice::<Self>(&text) {
             Ok(session) if session.is_sound() => Ok(session),
-            // Of another version: what it says may mean something else.
-            Ok(_) => Ok(Self::first()),
+            // What it says may mean something else, to another version of the program, which finds it again.
+            Ok(other) => {
+                let kept_as = path.with_extension(format!("version-{}.json", other.version));
+                std::fs::rename(path, kept_as).map_err(io)?;
+                Ok(Self::first())
+            }
             Err(error) => {
                 let kept_as = path.with_extension("unreadable.json");
                 std::fs::rename(path, &kept_as).map_err(io)?;
@@ -187,9 +195,8 @@ impl Session {
             if let Some(folder) = path.parent() {
                 std::fs::create_dir_all(folder)?;
             }
-            let aside = path.with_extension("new.json");
-            std::fs::write(&aside, serde_json::to_string_pretty(self)?)?;
-            std::fs::rename(&aside, path)
+            let text = serde_json::to_string_pretty(self)?;
+            write_whole(path, text.as_bytes()).map_err(|failed| failed.error)
         };
         write().map_err(|error| SessionError::Io {
             path: path.to_owned(),

@@ -7,15 +7,17 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::peduncle::state::PeduncleState;
+use super::simulator::SimulatorState;
 use super::tool::Tool;
 use crate::app::inspector::look::Look;
-use crate::app::inspector::stages::{AnalyzedFruit, Source};
+use crate::app::inspector::stages::AnalyzedFruit;
 use crate::app::many::state::{KeptMany, ManyState};
+use crate::app::source::Source;
 use crate::app::true_axes::state::{KeptTrueAxes, TrueAxesState};
 use crate::app::workers::Progress;
-use crate::evaluate::reference_of;
+use crate::evaluate::{ErrorBreakdown, reference_of};
 use crate::fruit::Request;
-use crate::method::{Analysis, AxisEstimate, Params, PlaneDetail, PointDetail};
+use crate::method::{Analysis, AxisEstimate, CandidateAxes, Params, PlaneDetail, PointDetail};
 use crate::render::{Camera, Viewport};
 use crate::view::{ShownPoints, Style, Theme};
 
@@ -88,6 +90,8 @@ pub struct State {
     pub walked: Option<Arc<AnalyzedFruit>>,
     /// A cloud that was read but not analyzed, and why: `None` where it only is not yet.
     pub unanalyzed: Option<(Arc<ShownPoints>, Option<String>)>,
+    /// Whether it was not analyzed because the viewpoint lies among its points, as that of a whole scan does.
+    pub is_viewpoint_inside: bool,
     /// The axes to compare with.
     pub references: Vec<AxisEstimate>,
     /// The one that the error is measured against.
@@ -118,6 +122,8 @@ pub struct State {
     pub pixels_per_point: f32,
     /// The tool of the left mouse button.
     pub tool: Tool,
+    /// The simulated pepper.
+    pub simulator: SimulatorState,
     /// Picking the peduncle.
     pub peduncle: PeduncleState,
     /// The picked point, by its index among the shown ones.
@@ -149,6 +155,7 @@ impl State {
             can_redo: false,
             walked: None,
             unanalyzed: None,
+            is_viewpoint_inside: false,
             references: Vec::new(),
             truth: TruthChoice::Peduncle,
             warnings: Vec::new(),
@@ -164,6 +171,7 @@ impl State {
             viewport: Viewport::new(800.0, 600.0),
             pixels_per_point: 1.0,
             tool: Tool::Navigate,
+            simulator: SimulatorState::default(),
             peduncle: PeduncleState::default(),
             picked: None,
             pointed_at: None,
@@ -230,6 +238,14 @@ impl State {
         chosen
             .or_else(|| reference_of(&self.references, self.truth))
             .or(self.references.first())
+    }
+
+    /// The parts of the axis's error against the chosen reference. Takes O(u²).
+    pub fn error_breakdown(&self) -> Option<ErrorBreakdown> {
+        let (walked, reference) = (self.walked.as_ref()?, self.reference()?);
+        let given = walked.at_true_center.as_deref().map(CandidateAxes::new);
+        let computed = CandidateAxes::new(&walked.analysis);
+        ErrorBreakdown::new(&walked.fruit, &computed, given.as_ref(), reference)
     }
 
     /// The detail of the plane that is drawn.

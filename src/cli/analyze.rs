@@ -1,12 +1,13 @@
 //! `axiscope analyze`: one cloud's planes, best plane, axis and error.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::Context;
 use axiscope::evaluate::{
-    AnalysisReport, Examination, Timings, TruthChoice, examine, peduncle_disagreement_deg, reference_of,
+    AnalysisReport, ErrorBreakdown, Examination, Timings, TruthChoice, examine, peduncle_disagreement_deg,
+    reference_of,
 };
 use axiscope::fruit::Fruit;
 use axiscope::geometry::Unit;
@@ -17,12 +18,16 @@ use clap::{Args, ValueEnum};
 use glam::DVec3;
 
 use super::options::AnalysisOptions;
+use super::output::Printable;
 use super::progress::StageClock;
 
 #[derive(Debug, Args)]
 pub(super) struct Analyze {
     /// The point cloud (PLY)
     cloud: PathBuf,
+    /// Reference against which the error is taken apart
+    #[arg(long, value_enum, default_value = "auto")]
+    truth: TruthChoice,
     #[command(flatten)]
     analysis: AnalysisOptions,
     /// Output format
@@ -47,6 +52,11 @@ pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
     let examined = examine(fruit, &request, &clock);
     let times = clock.finish();
     let examined = examined.with_context(|| args.cloud.display().to_string())?;
+    // Its times are not those of the analysis.
+    let clock = StageClock::new();
+    let examined = examined.with_true_center(&clock);
+    clock.finish();
+    let examined = examined?;
     let timings = Timings {
         read,
         normals: times.milliseconds(Stage::Normals),
@@ -54,14 +64,20 @@ pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
         plane_terms: times.milliseconds(Stage::PlaneTerms),
         total: milliseconds_since(started),
     };
-    let mut out = std::io::stdout().lock();
     match args.format {
-        Format::Text => write_text(&mut out, &args.cloud, &examined, &timings)?,
+        Format::Text => write_text(&mut Printable::stdout(), args, &examined, &timings)?,
         Format::Json => {
-            let report = AnalysisReport::new(&args.cloud, &request, args.analysis.seed, &examined, timings);
+            let report = AnalysisReport::new(
+                &args.cloud,
+                &request,
+                args.analysis.seed,
+                &examined,
+                args.truth,
+                timings,
+            );
             // The text is complete before its first byte goes out, so that a reader gets all of it or nothing.
             let text = serde_json::to_string_pretty(&report)?;
-            writeln!(out, "{text}")?;
+            writeln!(std::io::stdout(), "{text}")?;
         }
     }
     Ok(())
@@ -73,7 +89,7 @@ fn milliseconds_since(start: Instant) -> f64 {
 
 fn write_text(
     out: &mut impl Write,
-    path: &Path,
+    args: &Analyze,
     examined: &Examination,
     timings: &Timings,
 ) -> std::io::Result<()> {
@@ -86,7 +102,8 @@ fn write_text(
     let (params, unit) = (&analysis.params, fruit.unit);
     let grid = analysis.planes.grid;
     let (points, used) = (fruit.cloud().len(), analysis.surface.len());
-    write!(out, "{}: {points} points in {}", path.display(), unit_name(unit))?;
+    let path = args.cloud.display();
+    write!(out, "{path}: {points} points in {}", unit_name(unit))?;
     if used != points {
         write!(out, ", {used} of them used")?;
     }
@@ -132,6 +149,10 @@ fn write_text(
         None => row(out, "Symmetry axis", "none")?,
     }
     write_references(out, examined)?;
+    let truth = reference_of(&examined.references, args.truth);
+    if let Some(parts) = truth.and_then(|truth| examined.error_breakdown(truth)) {
+        write_parts(out, &parts, analysis.ranking.order().len())?;
+    }
     let Timings {
         read,
         normals,
@@ -189,6 +210,43 @@ fn write_references(out: &mut impl Write, examined: &Examination) -> std::io::Re
             let text = format!("the two references are {apart:.2}° apart");
             row(out, "", &text)?;
         }
+    }
+    Ok(())
+}
+
+/// Writes the parts of an error; `scored` is the number of planes with a score.
+fn write_parts(out: &mut impl Write, parts: &ErrorBreakdown, scored: usize) -> std::io::Result<()> {
+    let (lean, grid) = (parts.lean_part_deg, parts.grid_part_deg);
+    let text = match parts.error_deg.zip(parts.choice_part_deg) {
+        Some((error, choice)) => format!(
+            "{error:.2}° against {} = {lean:.2}° lean + {grid:.2}° grid + {choice:.2}° choice of the plane",
+            parts.truth
+        ),
+        None => format!(
+            "no axis; against {}: {lean:.2}° lean, {grid:.2}° grid",
+            parts.truth
+        ),
+    };
+    row(out, "Error's parts", &text)?;
+    let nearest = &parts.nearest_candidate;
+    let rank = match nearest.rank {
+        Some(rank) => format!("rank {rank} of {scored}"),
+        None => "without a score".into(),
+    };
+    let text = format!(
+        "nearest candidate: g {}, h {}, {:.2}° off, {rank}",
+        nearest.g, nearest.h, nearest.error_deg
+    );
+    row(out, "", &text)?;
+    if let Some(given) = &parts.true_center {
+        let error = given
+            .error_deg
+            .map_or("no axis".into(), |error| format!("{error:.2}° off"));
+        let text = format!(
+            "true center, {:.2} cm from the computed one: {error} if it is given",
+            given.distance_cm
+        );
+        row(out, "", &text)?;
     }
     Ok(())
 }

@@ -1,21 +1,26 @@
 //! `axiscope annotations`: a folder's axes set by hand, and the agreement between the annotators.
 
-use std::fmt::Write as _;
+use std::collections::HashMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::Context;
 use axiscope::annotate::exchange::{ImportedRow, read_table, write_table};
 use axiscope::annotate::{Annotation, Author, CloudAgreement, FAR_OFF_DEG, Role, SetAgreement, now};
 use axiscope::evaluate::Row;
+use axiscope::files::read_at_most;
 use axiscope::fruit::{AxisFiles, Fruit, PeduncleChoice, Request, read_annotations, read_cloud};
 use axiscope::geometry::Unit;
 use clap::{Args, ValueEnum};
+use comfy_table::Table;
+use comfy_table::presets::NOTHING;
 use serde::Serialize;
 
 use super::annotate::open;
 use super::evaluate::clouds_in;
 use super::options::{OrAuto, positive, unit_or_auto};
+use super::output::{Printable, say};
 
 #[derive(Debug, Args)]
 pub(super) struct Annotations {
@@ -79,47 +84,54 @@ pub(super) fn run(args: &Annotations) -> anyhow::Result<()> {
         }
     }
     for warning in &warnings {
-        eprintln!("Warning: {warning}");
+        say!("Warning: {warning}");
     }
     if let Some(file) = &args.export {
         let rows = annotated
             .iter()
             .flat_map(|(name, annotations)| annotations.iter().map(move |a| (name.as_str(), a)));
         let table = write_table(rows)?;
-        std::fs::write(file, table).with_context(|| file.display().to_string())?;
+        super::output::write(file, &table)?;
     }
     let of =
         |(name, annotations): &(String, Vec<Annotation>)| CloudAgreement::of(name, annotations, args.far_off);
     let agreement = SetAgreement::of(annotated.iter().map(of).collect(), args.far_off);
-    let mut out = std::io::stdout().lock();
     match args.format {
-        Format::Text => Ok(write_text(&mut out, &agreement)?),
+        Format::Text => Ok(write_text(&mut Printable::stdout(), &agreement)?),
         Format::Json => {
             let report = Report {
                 schema: "axiscope.agreement/1",
                 agreement: &agreement,
                 warnings: &warnings,
             };
-            Ok(writeln!(out, "{}", serde_json::to_string_pretty(&report)?)?)
+            Ok(writeln!(
+                std::io::stdout(),
+                "{}",
+                serde_json::to_string_pretty(&report)?
+            )?)
         }
     }
 }
 
+/// The longest table that is read, in bytes: some hundred thousand axes.
+const LONGEST_TABLE: u64 = 64 << 20;
+
 /// Imports the axes of a table. Every row is checked before the first is written.
 fn import(args: &Annotations, table: &Path, clouds: &[PathBuf]) -> anyhow::Result<()> {
     let named = || table.display().to_string();
-    let bytes = std::fs::read(table).with_context(named)?;
+    let bytes = read_at_most(table, LONGEST_TABLE).with_context(named)?;
     let rows = read_table(&bytes).with_context(named)?;
+    let mut known_clouds = HashMap::new();
     let mut ready = Vec::new();
     for (i, row) in rows.iter().enumerate() {
         let of_row = || format!("{}: row {}", table.display(), i + 1);
-        ready.push(prepare(args, row, clouds).with_context(of_row)?);
+        ready.push(prepare(args, row, clouds, &mut known_clouds).with_context(of_row)?);
     }
     let (mut taken, mut known) = (0, 0);
-    for (path, fruit, author, row) in ready {
-        let (mut store, writable) = open(path, &fruit, author)?;
+    for (path, cloud, author, row) in ready {
+        let (mut store, writable) = open(path, &cloud.sha256, cloud.unit, author)?;
         writable?;
-        let judgment = row.in_unit(fruit.unit)?;
+        let judgment = row.in_unit(cloud.unit)?;
         if store
             .current()
             .is_some_and(|current| current.judgment == judgment)
@@ -130,15 +142,22 @@ fn import(args: &Annotations, table: &Path, clouds: &[PathBuf]) -> anyhow::Resul
             taken += 1;
         }
     }
-    eprintln!("Took {taken} axes from {}; {known} were known.", table.display());
+    say!("Took {taken} axes from {}; {known} were known.", table.display());
     Ok(())
+}
+
+/// The part of a cloud that an imported axis needs: its points are not kept.
+struct KnownCloud {
+    sha256: String,
+    unit: Unit,
 }
 
 fn prepare<'a>(
     args: &Annotations,
     row: &'a ImportedRow,
     clouds: &'a [PathBuf],
-) -> anyhow::Result<(&'a Path, Fruit, Author, &'a ImportedRow)> {
+    known: &mut HashMap<&'a Path, Arc<KnownCloud>>,
+) -> anyhow::Result<(&'a Path, Arc<KnownCloud>, Author, &'a ImportedRow)> {
     let author = match row.role {
         Role::Annotator => Author::annotator(&row.annotator),
         Role::Adjudicator => Author::adjudicator(&row.annotator),
@@ -148,19 +167,28 @@ fn prepare<'a>(
         .iter()
         .find(|path| Row::name_in(&args.folder, path) == row.file)
         .with_context(|| format!("there is no cloud {:?} in {}", row.file, args.folder.display()))?;
-    let request = Request {
-        unit: args.unit,
-        peduncle: PeduncleChoice::None,
-        ..Request::default()
+    let cloud = match known.get(path.as_path()) {
+        Some(cloud) => cloud.clone(),
+        None => {
+            let request = Request {
+                unit: args.unit,
+                peduncle: PeduncleChoice::None,
+                ..Request::default()
+            };
+            let fruit = Fruit::read(path, &request)?;
+            let (sha256, unit) = (fruit.file.sha256.clone(), fruit.unit);
+            let cloud = Arc::new(KnownCloud { sha256, unit });
+            known.insert(path, cloud.clone());
+            cloud
+        }
     };
-    let fruit = Fruit::read(path, &request)?;
     anyhow::ensure!(
-        row.sha256.as_ref().is_none_or(|hash| *hash == fruit.file.sha256),
+        row.sha256.as_ref().is_none_or(|hash| *hash == cloud.sha256),
         "{} is not the cloud that this axis was set for",
         path.display()
     );
-    row.in_unit(fruit.unit)?;
-    Ok((path, fruit, author, row))
+    row.in_unit(cloud.unit)?;
+    Ok((path, cloud, author, row))
 }
 
 fn write_text(out: &mut impl Write, set: &SetAgreement) -> std::io::Result<()> {
@@ -254,15 +282,13 @@ fn write_table_text<const N: usize>(out: &mut impl Write, rows: &[[String; N]]) 
     if rows.len() < 2 {
         return Ok(());
     }
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
-    let widths: Vec<usize> = (0..N).map(|column| width(column).unwrap_or(0)).collect();
+    let mut table = Table::new();
+    table.load_style(NOTHING).add_rows(rows);
+    for column in table.column_iter_mut() {
+        column.set_padding((0, 2));
+    }
     writeln!(out)?;
-    for row in rows {
-        let mut line = String::new();
-        for (cell, width) in row.iter().zip(&widths) {
-            // Writing to a string cannot fail.
-            let _ = write!(line, "{cell:<width$}  ");
-        }
+    for line in table.lines() {
         writeln!(out, "{}", line.trim_end())?;
     }
     Ok(())

@@ -6,6 +6,7 @@ mod annotations;
 mod bench;
 mod evaluate;
 mod options;
+mod output;
 mod peers;
 #[cfg(feature = "window")]
 mod picture_options;
@@ -19,6 +20,8 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
+
+use output::say;
 
 /// Shows why a fruit's symmetry axis was found, or missed.
 ///
@@ -74,11 +77,11 @@ pub(crate) fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) if error.is::<clap::Error>() => {
-            eprint!("{error:#}");
+            output::say_line(format_args!("{}", format!("{error:#}").trim_end()));
             ExitCode::from(2)
         }
         Err(error) => {
-            eprintln!("axiscope: {error:#}");
+            say!("axiscope: {error:#}");
             ExitCode::FAILURE
         }
     }

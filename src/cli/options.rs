@@ -68,6 +68,9 @@ pub(super) struct AnalysisOptions {
     /// Leave the peduncle's points out of the analysis
     #[arg(long)]
     pub(super) without_peduncle: bool,
+    /// Analyze points that lie far from all others too, which are left out as strays otherwise
+    #[arg(long)]
+    pub(super) keep_strays: bool,
     /// Leave out statistical outliers, by the mean distance to this many nearest points
     #[arg(long, value_name = "N")]
     pub(super) outlier_neighbors: Option<NonZeroUsize>,
@@ -145,6 +148,7 @@ impl AnalysisOptions {
                 .unwrap_or_else(|| aggregation.default_min_partner_fraction()),
             viewpoint: self.viewpoint,
             filters: Filters {
+                keep_strays: self.keep_strays,
                 outliers: self.outlier_neighbors.map(|neighbors| OutlierFilter {
                     neighbors,
                     std_ratio: self.outlier_std,

@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use axiscope::evaluate::{Examination, examine};
+use axiscope::files::read_at_most;
 use axiscope::fruit::Fruit;
 use axiscope::render::Gpu;
 use axiscope::view::{DrawingError, PictureSettings, draw_cloud, encode_picture, picture_settings};
 use clap::Args;
 
 use super::options::AnalysisOptions;
+use super::output::say;
 use super::picture_options::Picture;
 use super::progress::StageClock;
 use super::usage_error;
@@ -33,6 +35,9 @@ pub(super) struct Render {
     analysis: AnalysisOptions,
 }
 
+/// The longest picture that is read for its settings, in bytes.
+const LONGEST_PICTURE: u64 = 256 << 20;
+
 /// Draws. `arguments` is the whole command line, `parse` reads one.
 pub(super) fn run(
     args: &Render,
@@ -49,7 +54,8 @@ pub(super) fn run(
             draw(cloud, cloud, &args.picture, &args.analysis, arguments, None)?
         }
         Some(figure) => {
-            let bytes = std::fs::read(figure).with_context(|| figure.display().to_string())?;
+            let bytes =
+                read_at_most(figure, LONGEST_PICTURE).with_context(|| figure.display().to_string())?;
             let settings = picture_settings(&bytes).with_context(|| figure.display().to_string())?;
             let words = std::iter::once("axiscope".to_owned()).chain(settings.arguments.clone());
             let words: Vec<String> = words.collect();
@@ -72,7 +78,7 @@ pub(super) fn run(
             )?
         }
     };
-    std::fs::write(&args.out, png).with_context(|| args.out.display().to_string())
+    super::output::write(&args.out, &png)
 }
 
 /// The picture as PNG bytes. `named` is what the settings call the cloud, which lies at `cloud`.
@@ -111,7 +117,7 @@ fn examined(
     let request = options.request();
     let fruit = Fruit::read(cloud, &request)?;
     if expected_sha256.is_some_and(|hash| hash != fruit.file.sha256) {
-        eprintln!(
+        say!(
             "Warning: {} has changed since the picture was drawn: this one may differ.",
             cloud.display()
         );
@@ -121,7 +127,7 @@ fn examined(
     clock.finish();
     let examined = examined.with_context(|| cloud.display().to_string())?;
     for warning in &examined.warnings {
-        eprintln!("Warning: {warning}");
+        say!("Warning: {warning}");
     }
     Ok(examined)
 }

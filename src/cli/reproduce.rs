@@ -8,9 +8,11 @@ use anyhow::Context;
 use axiscope::evaluate::reproduce::{
     Needs, PaperFigure, ReproduceSettings, Reproduction, Scan, run_ellipsoids, run_peppers,
 };
+use axiscope::files::write_all;
 use clap::Args;
 
 use super::options::{Depths, depths, grid_size, number};
+use super::output::say;
 use super::progress::CountingBar;
 
 #[derive(Debug, Args)]
@@ -78,19 +80,20 @@ pub(super) fn run(args: &Reproduce) -> anyhow::Result<()> {
             .map(|&figure| reproduction.figure_files(figure));
         drawn.collect::<Result<Vec<_>, _>>()?.concat()
     };
-    for (name, bytes) in &files {
-        let path = args.out.join(name);
-        std::fs::write(&path, bytes).with_context(|| path.display().to_string())?;
-    }
-    if let Some((_, report)) = files.iter().find(|(name, _)| name == "report.md") {
+    let report = files.iter().find(|(name, _)| name == "report.md");
+    if let Some((_, report)) = report {
         std::io::stdout().lock().write_all(report)?;
     }
+    let files = files
+        .into_iter()
+        .map(|(name, bytes)| (args.out.join(name), bytes));
+    write_all(&files.collect::<Vec<_>>())?;
     let what = if args.figure.is_empty() {
         "the report, its tables and its figures"
     } else {
         "the figures"
     };
-    eprintln!(
+    say!(
         "Wrote {what} to {} in {:.0} s.",
         args.out.display(),
         started.elapsed().as_secs_f64()

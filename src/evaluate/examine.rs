@@ -1,8 +1,14 @@
 //! The analysis of one cloud and its comparison with every known reference axis.
 
+use std::path::Path;
+
+use super::ErrorBreakdown;
 use crate::annotate::{Role, estimates};
-use crate::fruit::{Fruit, Request};
-use crate::method::{Analysis, AnalysisError, AxisEstimate, AxisSource, Observe, Stages, axis_error_rad};
+use crate::fruit::{Fruit, FruitError, ReadErrorKind, Request};
+use crate::method::{
+    Analysis, AnalysisError, AxisEstimate, AxisSource, CandidateAxes, Observe, Stages, axis_error_rad,
+};
+use crate::parallel::Cancelled;
 use crate::text::sentence;
 use serde::{Deserialize, Serialize};
 
@@ -46,8 +52,38 @@ pub struct Examination {
     pub references: Vec<AxisEstimate>,
     /// The warnings of the file, then those of the method, as sentences.
     pub warnings: Vec<String>,
+    /// The analysis with the simulator's center given instead of the computed one, once
+    /// [`Examination::with_true_center`] has made it.
+    pub at_true_center: Option<Analysis>,
     /// The stages of the analysis, for others of the same cloud.
     pub(super) stages: Stages,
+}
+
+impl Examination {
+    /// Analyzes the cloud once more with its true center given, where the simulator's truth tells it: what the
+    /// errors are without that of the center. Takes as long as the plane terms.
+    ///
+    /// # Errors
+    /// Returns an error if the observer cancels the work.
+    pub fn with_true_center(mut self, observe: &dyn Observe) -> Result<Self, Cancelled> {
+        let Some(truth) = &self.fruit.truth else {
+            return Ok(self);
+        };
+        let params = self.analysis.params.with_center(truth.center);
+        self.at_true_center = match self.stages.analyze(&params, observe) {
+            Ok(analysis) => Some(analysis),
+            Err(error) if error.is_cancelled() => return Err(Cancelled),
+            Err(_) => None,
+        };
+        Ok(self)
+    }
+
+    /// Takes the error against a reference axis apart; `None` if the viewpoint is the center.
+    pub fn error_breakdown(&self, reference: &AxisEstimate) -> Option<ErrorBreakdown> {
+        let given = self.at_true_center.as_ref().map(CandidateAxes::new);
+        let computed = CandidateAxes::new(&self.analysis);
+        ErrorBreakdown::new(&self.fruit, &computed, given.as_ref(), reference)
+    }
 }
 
 #[cfg(feature = "window")]
@@ -84,8 +120,32 @@ pub fn examine(fruit: Fruit, request: &Request, observe: &dyn Observe) -> Result
         analysis,
         references,
         warnings,
+        at_true_center: None,
         stages,
     })
+}
+
+/// Reads and analyzes the cloud at `path`; a clause without the file's name if that is not possible.
+///
+/// # Errors
+/// Returns an error if the observer cancels the work.
+pub fn examine_file(
+    path: &Path,
+    request: &Request,
+    observe: &dyn Observe,
+) -> Result<Result<Examination, String>, Cancelled> {
+    let fruit = match Fruit::read_watched(path, request, observe) {
+        Ok(fruit) => fruit,
+        Err(FruitError::Read(error)) if matches!(error.kind, ReadErrorKind::Cancelled) => {
+            return Err(Cancelled);
+        }
+        Err(error) => return Ok(Err(error.reason())),
+    };
+    match examine(fruit, request, observe) {
+        Ok(examined) => Ok(Ok(examined)),
+        Err(error) if error.is_cancelled() => Err(Cancelled),
+        Err(error) => Ok(Err(error.to_string())),
+    }
 }
 
 /// Collects the reference axes of an analysis, that of the peduncle first, and the warnings: those of the file, then

@@ -7,6 +7,7 @@
 //! times: a resumed run, a run in shards and an unbroken run give the same bytes.
 
 mod checksummed_lines;
+mod error_breakdown;
 mod examine;
 mod file_hashes;
 mod outcome;
@@ -27,8 +28,10 @@ mod tags;
 #[cfg(feature = "window")]
 mod thumbnails;
 
+pub use error_breakdown::{ErrorBreakdown, GivenCenter, NearestPlane};
 pub use examine::{
-    Examination, TruthChoice, collect_references, examine, peduncle_disagreement_deg, reference_of,
+    Examination, TruthChoice, collect_references, examine, examine_file, peduncle_disagreement_deg,
+    reference_of,
 };
 pub use file_hashes::KnownHash;
 pub use outcome::{KnownAxis, Outcome};
@@ -41,7 +44,7 @@ pub use row::Row;
 pub use row_store::{RowStore, StoreKind, StoreProblem, StoredRow};
 pub use runner::{EvaluateError, EvaluatedCloud, Reuse, Runner, annotation_files, evaluate_file};
 pub use start::{StartError, start_axis};
-pub use summary::Summary;
+pub use summary::{MeanGivenCenter, MeanParts, Summary};
 pub use sweep::{Sweep, SweepSettings, sweep_cloud};
 pub use tags::{CloudTags, TAGS_FILE, add_tags, read_tags, write_tags};
 #[cfg(feature = "window")]

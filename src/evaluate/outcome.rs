@@ -4,9 +4,11 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Examination, Row, TruthChoice, examine, peduncle_disagreement_deg, reference_of};
-use crate::fruit::{Fruit, FruitError, ReadErrorKind, Request};
-use crate::method::{Analysis, AxisEstimate, Observe, axis_error_rad};
+use super::{
+    ErrorBreakdown, Examination, Row, TruthChoice, examine_file, peduncle_disagreement_deg, reference_of,
+};
+use crate::fruit::{Fruit, Request};
+use crate::method::{Analysis, AxisEstimate, CandidateAxes, Observe, axis_error_rad};
 use crate::parallel::Cancelled;
 
 /// A reference axis of a cloud, and the error against it.
@@ -18,6 +20,8 @@ pub struct KnownAxis {
     pub direction: [f64; 3],
     /// The angle to it from the computed axis, 0 to 90 degrees.
     pub error_deg: Option<f64>,
+    /// The parts of that error.
+    pub error_parts: Option<ErrorBreakdown>,
 }
 
 /// The result of one cloud against each of its reference axes.
@@ -51,26 +55,34 @@ impl Outcome {
             analysis,
             references,
             warnings,
+            at_true_center,
             ..
         } = examined;
-        Self::of_parts(file, fruit, analysis, references, warnings)
+        let given = at_true_center.as_ref();
+        Self::of_parts(file, fruit, analysis, given, references, warnings)
     }
 
-    /// Creates the same outcome as [`Outcome::of`] from the parts.
+    /// Creates the same outcome as [`Outcome::of`] from the fields of an [`Examination`].
     pub fn of_parts(
         file: &str,
         fruit: &Fruit,
         analysis: &Analysis,
+        at_true_center: Option<&Analysis>,
         references: &[AxisEstimate],
         warnings: &[String],
     ) -> Self {
         let used = analysis.surface.len();
         let axis = analysis.axis.as_ref();
+        let (computed, given) = (
+            CandidateAxes::new(analysis),
+            at_true_center.map(CandidateAxes::new),
+        );
         let known = |choice| {
             reference_of(references, choice).map(|reference| KnownAxis {
                 name: reference.source.name().into_owned(),
                 direction: reference.direction.to_array(),
                 error_deg: axis.map(|axis| axis_error_rad(axis, reference).to_degrees()),
+                error_parts: ErrorBreakdown::new(fruit, &computed, given.as_ref(), reference),
             })
         };
         let (peduncle, truth) = (known(TruthChoice::Peduncle), known(TruthChoice::Truth));
@@ -100,6 +112,7 @@ impl Outcome {
             peduncle_disagreement_deg: peduncle_disagreement_deg(references),
             true_axis_error_deg: error(&truth),
             manual_error_deg: error(&manual),
+            coverage: fruit.truth.as_ref().and_then(|truth| truth.coverage),
             annotators: annotators.join(", "),
             warnings: warnings.join(" "),
             failure: None,
@@ -126,18 +139,12 @@ impl Outcome {
         request: &Request,
         observe: &dyn Observe,
     ) -> Result<(Self, Option<Examination>), Cancelled> {
-        let failed = |reason| Ok((Self::failed(file, reason), None));
-        let fruit = match Fruit::read_watched(path, request, observe) {
-            Ok(fruit) => fruit,
-            Err(FruitError::Read(error)) if matches!(error.kind, ReadErrorKind::Cancelled) => {
-                return Err(Cancelled);
+        match examine_file(path, request, observe)? {
+            Ok(examined) => {
+                let examined = examined.with_true_center(observe)?;
+                Ok((Self::of(file, &examined), Some(examined)))
             }
-            Err(error) => return failed(error.reason()),
-        };
-        match examine(fruit, request, observe) {
-            Ok(examined) => Ok((Self::of(file, &examined), Some(examined))),
-            Err(error) if error.is_cancelled() => Err(Cancelled),
-            Err(error) => failed(error.to_string()),
+            Err(reason) => Ok((Self::failed(file, reason), None)),
         }
     }
 
@@ -197,6 +204,7 @@ impl Outcome {
             truth: reference.map(|r| r.name.clone()),
             truth_axis: reference.map(|r| r.direction),
             error_deg: reference.and_then(|r| r.error_deg),
+            error_parts: reference.and_then(|r| r.error_parts.clone()),
             failure: self.failure(choice).map(str::to_owned),
             ..self.row.clone()
         }

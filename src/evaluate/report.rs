@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Examination, TruthChoice, peduncle_disagreement_deg, reference_of};
+use super::{ErrorBreakdown, Examination, TruthChoice, peduncle_disagreement_deg, reference_of};
 use crate::fruit::Request;
 use crate::geometry::Unit;
 use crate::method::{Aggregation, AxisEstimate, CenterMethod, NormalSource, Params, axis_error_rad};
@@ -25,6 +25,7 @@ pub struct AnalysisReport {
     reference: Option<ReferenceReport>,
     references: Vec<ReferenceReport>,
     peduncle_disagreement_deg: Option<f64>,
+    error_parts: Option<ErrorBreakdown>,
     warnings: Vec<String>,
     timings_ms: Timings,
 }
@@ -70,6 +71,7 @@ struct ParamsReport {
     seed: u64,
     peduncle: String,
     without_peduncle: bool,
+    keep_strays: bool,
     outlier_neighbors: Option<usize>,
     outlier_std: Option<f64>,
     voxel_cm: Option<f64>,
@@ -120,12 +122,13 @@ struct ReferenceReport {
 
 impl AnalysisReport {
     /// Creates a report. `path` is the cloud's file as the user named it, and `seed` the given seed, whether it is
-    /// used or not.
+    /// used or not. The error against the reference `truth` is taken apart.
     pub fn new(
         path: &Path,
         request: &Request,
         seed: u64,
         examined: &Examination,
+        truth: TruthChoice,
         timings_ms: Timings,
     ) -> Self {
         let Examination {
@@ -188,6 +191,7 @@ impl AnalysisReport {
             reference: reference.map(reported),
             references: references.iter().map(reported).collect(),
             peduncle_disagreement_deg: peduncle_disagreement_deg(references),
+            error_parts: reference_of(references, truth).and_then(|r| examined.error_breakdown(r)),
             warnings: warnings.clone(),
             timings_ms,
         }
@@ -220,6 +224,7 @@ fn params_report(request: &Request, seed: u64, params: &Params) -> ParamsReport 
         seed,
         peduncle: request.peduncle.to_string(),
         without_peduncle: request.without_peduncle,
+        keep_strays: params.filters.keep_strays,
         outlier_neighbors: params.filters.outliers.map(|f| f.neighbors.get()),
         outlier_std: params.filters.outliers.map(|f| f.std_ratio),
         voxel_cm: params.filters.voxel_cm,

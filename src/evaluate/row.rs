@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::ErrorBreakdown;
 use crate::geometry::Unit;
 
 /// The results of one cloud against one reference axis. Values that do not exist are `None`; a cloud that failed has
@@ -53,6 +54,12 @@ pub struct Row {
     /// The angle to the axis set by hand, 0 to 90 degrees.
     #[serde(default)]
     pub manual_error_deg: Option<f64>,
+    /// The parts of `error_deg`.
+    #[serde(default)]
+    pub error_parts: Option<ErrorBreakdown>,
+    /// The share of the fruit's surface that the camera saw, 0 to 1, from the simulator's truth.
+    #[serde(default)]
+    pub coverage: Option<f64>,
     /// The names of the annotators who set an axis of this cloud, separated by commas.
     #[serde(default)]
     pub annotators: String,
@@ -92,6 +99,8 @@ impl Row {
             peduncle_disagreement_deg: None,
             true_axis_error_deg: None,
             manual_error_deg: None,
+            error_parts: None,
+            coverage: None,
             annotators: String::new(),
             warnings: String::new(),
             failure: Some(failure),

@@ -25,6 +25,8 @@ const MAX_IN_MEMORY: usize = 4;
 const MAX_THUMBNAILS: usize = 4000;
 /// The folder of the thumbnails, in that of the rows.
 pub(super) const THUMBNAILS: &str = "thumbnails";
+/// The format of a stored row. It is counted up when rows get a new value, so that rows without it are computed again.
+const ROW_FORMAT: u32 = 1;
 const HASHES_FILE: &str = "stamps.jsonl";
 
 /// The stored result of one cloud.
@@ -225,6 +227,8 @@ impl Inner {
 #[derive(Serialize)]
 struct ParamsKey<'a> {
     version: &'static str,
+    /// [`ROW_FORMAT`].
+    format: u32,
     request: &'a Request,
     sweep: Option<(&'a SweepSettings, TruthChoice)>,
 }
@@ -233,6 +237,7 @@ struct ParamsKey<'a> {
 pub(super) fn params_key(request: &Request, sweep: Option<(&SweepSettings, TruthChoice)>) -> String {
     stable_hash(&ParamsKey {
         version: env!("CARGO_PKG_VERSION"),
+        format: ROW_FORMAT,
         request,
         sweep,
     })

@@ -2,6 +2,7 @@
 
 use crate::annotate::{Ends, EndsError, Method};
 use crate::fruit::Fruit;
+use crate::geometry::{strays, without};
 use crate::method::{Analysis, AxisEstimate, AxisSource};
 
 /// The reason why there is no axis to start from. A clause.
@@ -49,5 +50,11 @@ pub fn start_axis(
         }
         Method::ByHand | Method::Imported => return Err(StartError::Nothing),
     };
-    Ok(Ends::spanning(fruit.body().positions(), origin, direction)?)
+    // Strays would lengthen it.
+    let body = fruit.body();
+    let strays = strays(body.positions());
+    let kept: Vec<_> = without(&strays, body.len())
+        .map(|i| body.positions()[i])
+        .collect();
+    Ok(Ends::spanning(&kept, origin, direction)?)
 }

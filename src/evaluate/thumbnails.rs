@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::row_store::{THUMBNAILS, params_key, stable_hash};
-use super::{Examination, Outcome, RowStore, TruthChoice};
+use super::{Examination, RowStore, TruthChoice, examine_file};
+use crate::files::write_whole;
 use crate::fruit::{Request, annotation_paths, files_behind};
 use crate::method::Observe;
 use crate::render::Image;
@@ -65,11 +66,8 @@ impl ThumbnailFile {
         let write = || {
             let folder = self.path.parent()?;
             std::fs::create_dir_all(folder).ok()?;
-            // Under another name first: half a picture never has the final one.
-            let mut file = tempfile::NamedTempFile::new_in(folder).ok()?;
             let png = encode_picture(image, &settings).ok()?;
-            std::io::Write::write_all(&mut file, &png).ok()?;
-            file.persist(&self.path).ok()
+            write_whole(&self.path, &png).ok()
         };
         let _ = write();
     }
@@ -90,10 +88,9 @@ impl ThumbnailRenderer {
         settings: &ThumbnailSettings,
         observe: &dyn Observe,
     ) -> Option<Result<Image, String>> {
-        let (outcome, examined) = Outcome::of_file("", path, &settings.request, observe).ok()?;
-        let Some(examined) = examined else {
-            let why = outcome.row().failure.clone().unwrap_or_default();
-            return Some(Err(sentence(&why)));
+        let examined = match examine_file(path, &settings.request, observe).ok()? {
+            Ok(examined) => examined,
+            Err(why) => return Some(Err(sentence(&why))),
         };
         let mut device = self.device.lock().unwrap_or_else(PoisonError::into_inner);
         Some(draw(&mut device, &examined, settings))

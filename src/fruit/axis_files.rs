@@ -1,6 +1,7 @@
 //! The axis files beside clouds: their listing, and the annotations in them.
 
 use std::collections::{BTreeMap, HashMap};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use crate::annotate::{AXIS_ENDING, Annotation, axis_file_of, read_annotation};
@@ -20,14 +21,14 @@ pub struct AxisFile {
 #[derive(Debug, Default)]
 pub struct AxisFiles {
     /// The sorted names of every folder's axis files.
-    names: HashMap<PathBuf, Vec<String>>,
+    names: HashMap<PathBuf, Vec<OsString>>,
 }
 
 impl AxisFiles {
     /// The axis files of a cloud, `CLOUD.NAME.axis.json` and further copies, in the order of their names, unusable ones
     /// among them. There are none where the folder cannot be read.
     pub fn of(&mut self, cloud: &Path) -> Vec<AxisFile> {
-        let Some(stem) = cloud.file_stem().and_then(|stem| stem.to_str()) else {
+        let Some(stem) = cloud.file_stem() else {
             return Vec::new();
         };
         let folder = cloud.parent().unwrap_or(Path::new(""));
@@ -36,11 +37,13 @@ impl AxisFiles {
         }
         let names = &self.names[folder];
         // Names with the same beginning stand together in a sorted list.
-        let prefix = format!("{stem}.");
+        let mut prefix = stem.to_owned();
+        prefix.push(".");
         let first = names.partition_point(|name| *name < prefix);
-        let of_stem = names[first..].iter().take_while(|name| name.starts_with(&prefix));
+        let is_of_stem = |name: &&OsString| name.as_encoded_bytes().starts_with(prefix.as_encoded_bytes());
+        let of_stem = names[first..].iter().take_while(is_of_stem);
         let of_cloud = of_stem.filter_map(|name| {
-            let (slug, copy) = axis_file_of(cloud, name.as_ref())?;
+            let (slug, copy) = axis_file_of(cloud, name)?;
             let path = cloud.with_file_name(name);
             Some(AxisFile { path, slug, copy })
         });
@@ -48,14 +51,15 @@ impl AxisFiles {
     }
 }
 
-fn axis_file_names(folder: &Path) -> Vec<String> {
+fn axis_file_names(folder: &Path) -> Vec<OsString> {
     let is_here = folder.as_os_str().is_empty();
     let entries = std::fs::read_dir(if is_here { Path::new(".") } else { folder });
     let names = entries
         .into_iter()
         .flatten()
-        .filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let mut names: Vec<String> = names.filter(|name| name.ends_with(AXIS_ENDING)).collect();
+        .filter_map(|entry| Some(entry.ok()?.file_name()));
+    let is_axis = |name: &OsString| name.as_encoded_bytes().ends_with(AXIS_ENDING.as_bytes());
+    let mut names: Vec<OsString> = names.filter(is_axis).collect();
     names.sort();
     names
 }

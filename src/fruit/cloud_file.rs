@@ -9,7 +9,8 @@ use sha2::{Digest, Sha256};
 use super::MeshFormatError;
 use crate::parallel::{Cancelled, PartOf, Watch};
 use crate::ply::{self, PlyCloud, PlyError, Problem};
-use crate::simulate::MeshError;
+use crate::simulate::{MeshError, SimulateError};
+use crate::text::one_line;
 
 /// A cloud and its file.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +25,7 @@ pub struct CloudFile {
 
 /// A file that gives no cloud. Displayed as one line: the file, then the cause.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {kind}", on_one_line(.path))]
+#[error("{}: {kind}", one_line(&.path.display().to_string()))]
 pub struct ReadError {
     /// The file's path, as it was given.
     pub path: PathBuf,
@@ -60,6 +61,9 @@ pub enum ReadErrorKind {
     /// It is no PLY file, or a malformed one.
     #[error(transparent)]
     Ply(PlyError),
+    /// The simulator gives no cloud with these settings.
+    #[error(transparent)]
+    Simulation(#[from] SimulateError),
     /// It is no mesh, or a malformed one.
     #[error(transparent)]
     MeshFormat(#[from] MeshFormatError),
@@ -214,16 +218,4 @@ pub(super) fn bytes_of(path: &Path, watch: &dyn Watch) -> Result<Vec<u8>, ReadEr
 /// SHA-256 of some bytes, in 64 lowercase hexadecimal digits.
 pub fn sha256_hex(bytes: &[u8]) -> String {
     hex::encode(Sha256::digest(bytes))
-}
-
-/// A path for a message of one line: names of files may hold line ends.
-fn on_one_line(path: &Path) -> String {
-    let escape = |c: char| {
-        if c.is_control() {
-            c.escape_default().collect()
-        } else {
-            String::from(c)
-        }
-    };
-    path.display().to_string().chars().map(escape).collect()
 }

@@ -9,6 +9,7 @@ mod picked;
 mod read;
 mod request;
 mod request_options;
+mod simulated_files;
 pub mod unit_guess;
 
 pub use axis_files::{AxisFile, AxisFiles, annotation_paths, read_annotations};
@@ -21,3 +22,4 @@ pub use mesh_file::{MeshFile, MeshFormatError, read_mesh};
 pub use picked::PickedPoints;
 pub use read::{Fruit, FruitError, PeduncleChoice, companion_path, removed_path, truth_path};
 pub use request::Request;
+pub use simulated_files::simulated_files;

@@ -1,6 +1,7 @@
 //! A fruit from its files: the cloud, its unit, and its peduncle.
 
 use serde::{Deserialize, Serialize};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,6 +10,7 @@ use super::{
     unit_guess,
 };
 use crate::annotate::Annotation;
+use crate::files::read_regular;
 use crate::geometry::{Cloud, Unit};
 use crate::parallel::Watch;
 use crate::peduncle::{HueRange, Peduncle, PeduncleError, PeduncleSource};
@@ -215,14 +217,21 @@ pub fn removed_path(path: &Path, folder: &Path) -> PathBuf {
     folder.join(path.file_name().unwrap_or_default())
 }
 
+/// The longest truth file that is read, in bytes. Ours have some thousand.
+const LONGEST_TRUTH: u64 = 1 << 20;
+
 /// The content of a truth file; `None` if there is no file. The error is a sentence.
 fn read_truth(path: &Path) -> Result<Option<Truth>, String> {
-    let text = match std::fs::read_to_string(path) {
+    let text = match read_regular(path, LONGEST_TRUTH) {
         Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        // A name that is too long is the name of no file.
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::InvalidFilename) => {
+            return Ok(None);
+        }
         Err(error) => return Err(format!("{}: {error}.", path.display())),
     };
-    parse_truth(path, &text).map(Some)
+    let text = str::from_utf8(&text).map_err(|error| format!("{}: {error}.", path.display()))?;
+    parse_truth(path, text).map(Some)
 }
 
 fn parse_truth(path: &Path, text: &str) -> Result<Truth, String> {

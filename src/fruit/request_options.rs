@@ -78,6 +78,9 @@ impl Request {
         if params.filters.max_points != defaults.filters.max_points {
             add("--max-points", params.filters.max_points.to_string());
         }
+        if params.filters.keep_strays {
+            words.push("--keep-strays".into());
+        }
         if self.without_peduncle {
             words.push("--without-peduncle".into());
         }

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::strays::{strays, without};
+
 /// An axis-aligned box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
@@ -27,9 +29,22 @@ impl Extent {
         ))
     }
 
-    /// The box between the 2nd and the 98th percentile of each coordinate, which a few strays do not
-    /// change. `None` if there are no points.
+    /// The box between the 2nd and the 98th percentile of each coordinate of the points that are no
+    /// [`strays`]. `None` if there are no points.
     pub fn robust(points: &[DVec3]) -> Option<Self> {
+        Self::robust_without(points, &strays(points))
+    }
+
+    /// [`Extent::robust`] with the points' strays, found before; ascending indices.
+    pub(crate) fn robust_without(points: &[DVec3], strays: &[usize]) -> Option<Self> {
+        if strays.is_empty() {
+            return Self::between_percentiles(points);
+        }
+        let kept: Vec<DVec3> = without(strays, points.len()).map(|i| points[i]).collect();
+        Self::between_percentiles(&kept)
+    }
+
+    fn between_percentiles(points: &[DVec3]) -> Option<Self> {
         if points.is_empty() {
             return None;
         }

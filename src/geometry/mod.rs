@@ -12,6 +12,7 @@ mod normals;
 mod plane;
 mod point_set;
 mod spread;
+mod strays;
 mod unit;
 mod voxels;
 
@@ -25,6 +26,8 @@ pub use normals::estimate_normals;
 pub use plane::Plane;
 pub use point_set::PointSet;
 pub use spread::Spread;
+pub use strays::strays;
+pub(crate) use strays::{strays_watched, without};
 pub use unit::Unit;
-pub(crate) use voxels::near_one_another;
+pub(crate) use voxels::{by_cell, near_one_another, voxel_grid_watched};
 pub use voxels::{voxel_edge_for, voxel_grid};

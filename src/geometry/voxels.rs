@@ -12,24 +12,48 @@ use crate::parallel::{Cancelled, Watch};
 /// equals). Cubes are anchored at the origin, so that the clouds of a set are cut alike; they
 /// come in the order of their lowest point index.
 pub fn voxel_grid(cloud: &Cloud, edge: f64) -> Cloud {
+    // Without a watch nothing is called off.
+    voxel_grid_watched(cloud, edge, &()).unwrap_or_default()
+}
+
+/// [`voxel_grid`], called off by a watch.
+pub(crate) fn voxel_grid_watched(cloud: &Cloud, edge: f64, watch: &dyn Watch) -> Result<Cloud, Cancelled> {
     let points = cloud.positions();
-    let (order, starts) = by_cell(points, edge);
+    let (order, starts) = by_cell(points, edge, watch)?;
     let mut voxels: Vec<&[usize]> = starts.windows(2).map(|w| &order[w[0]..w[1]]).collect();
     voxels.sort_unstable_by_key(|members| members[0]);
+    let go_on = || {
+        if watch.is_cancelled() {
+            Err(Cancelled)
+        } else {
+            Ok(())
+        }
+    };
+    go_on()?;
 
-    let mean = |members: &[usize]| members.iter().map(|&i| points[i]).sum::<DVec3>() / members.len() as f64;
+    let mean = |members: &[usize]| {
+        let mean = members.iter().map(|&i| points[i]).sum::<DVec3>() / members.len() as f64;
+        // The sum of the largest numbers is infinite, and an infinite point is none.
+        if mean.is_finite() {
+            mean
+        } else {
+            points[members[0]]
+        }
+    };
     let filtered = Cloud::new(voxels.iter().map(|&m| mean(m)).collect());
+    go_on()?;
     let normals = cloud.normals().map(|normals| {
         let mean = |m: &&[usize]| m.iter().map(|&i| normals[i]).sum::<Vec3>().normalize_or_zero();
         voxels.iter().map(mean).collect()
     });
+    go_on()?;
     let colors = cloud
         .colors()
         .map(|colors| voxels.iter().map(|m| mean_color(colors, m)).collect());
     let labels = cloud
         .labels()
         .map(|labels| voxels.iter().map(|m| majority(labels, m)).collect());
-    filtered.with_columns(normals, colors, labels)
+    Ok(filtered.with_columns(normals, colors, labels))
 }
 
 fn mean_color(colors: &[[u8; 4]], members: &[usize]) -> [u8; 4] {
@@ -62,7 +86,11 @@ const BITS: u32 = 21;
 
 /// The points' indices, cell by cell and ascending in each, and the start of each cell among them, with
 /// the end of the last.
-fn by_cell(points: &[DVec3], edge: f64) -> (Vec<usize>, Vec<usize>) {
+pub(crate) fn by_cell(
+    points: &[DVec3],
+    edge: f64,
+    watch: &dyn Watch,
+) -> Result<(Vec<usize>, Vec<usize>), Cancelled> {
     let (mut low, mut high) = (I64Vec3::MAX, I64Vec3::MIN);
     for &p in points {
         let cell = cell(p, edge);
@@ -75,20 +103,24 @@ fn by_cell(points: &[DVec3], edge: f64) -> (Vec<usize>, Vec<usize>) {
             let c = cell(p, edge) - low;
             (c.x << (2 * BITS) | c.y << BITS | c.z) as u64
         };
-        sorted(points.iter().map(key))
+        sorted(points.iter().map(key), watch)
     } else {
-        sorted(points.iter().map(|&p| cell(p, edge).to_array()))
+        sorted(points.iter().map(|&p| cell(p, edge).to_array()), watch)
     }
 }
 
 /// All indices, cell by cell, so that points that lie close together are close in the order.
 pub(crate) fn near_one_another(points: &[DVec3], edge: f64) -> Vec<usize> {
-    by_cell(points, edge).0
+    // Without a watch nothing is called off.
+    by_cell(points, edge, &()).unwrap_or_default().0
 }
 
-fn sorted<K: Ord + Send>(keys: impl Iterator<Item = K>) -> (Vec<usize>, Vec<usize>) {
+fn sorted<K: Ord + Send>(
+    keys: impl Iterator<Item = K>,
+    watch: &dyn Watch,
+) -> Result<(Vec<usize>, Vec<usize>), Cancelled> {
     let mut keyed: Vec<(K, usize)> = keys.zip(0..).collect();
-    sort_unstable(&mut keyed);
+    sort_unstable(&mut keyed, watch)?;
     let mut starts = Vec::new();
     let mut start = 0;
     for same in keyed.chunk_by(|a, b| a.0 == b.0) {
@@ -96,7 +128,7 @@ fn sorted<K: Ord + Send>(keys: impl Iterator<Item = K>) -> (Vec<usize>, Vec<usiz
         start += same.len();
     }
     starts.push(start);
-    (keyed.into_iter().map(|(_, i)| i).collect(), starts)
+    Ok((keyed.into_iter().map(|(_, i)| i).collect(), starts))
 }
 
 /// An edge, in the points' unit, with which a voxel grid leaves at most `most` of the points, and not
@@ -126,7 +158,7 @@ pub fn voxel_edge_for(points: &[DVec3], most: usize, watch: &dyn Watch) -> Resul
             return Err(Cancelled);
         }
         watch.advanced(tried, TRIES);
-        let count = occupied(points, edge, 2 * most);
+        let count = occupied(points, edge, most.saturating_mul(2), watch)?;
         if count <= most {
             enough = Some(edge);
             // Cells much smaller than a billionth of the extent separate no more points.
@@ -157,11 +189,15 @@ pub fn voxel_edge_for(points: &[DVec3], most: usize, watch: &dyn Watch) -> Resul
 
 /// The number of cells of the edge that hold points; counting stops above `most`. Fewer than one cell in
 /// a billion is mistaken for another.
-fn occupied(points: &[DVec3], edge: f64, most: usize) -> usize {
+fn occupied(points: &[DVec3], edge: f64, most: usize, watch: &dyn Watch) -> Result<usize, Cancelled> {
     let slots = (2 * most).next_power_of_two().max(16);
     let mut table = vec![0u64; slots];
     let mut count = 0;
-    for &p in points {
+    for (i, &p) in points.iter().enumerate() {
+        // Some hundredths of a second.
+        if i % (1 << 20) == 0 && watch.is_cancelled() {
+            return Err(Cancelled);
+        }
         let c = cell(p, edge).to_array();
         let mixed = c.iter().fold(1u64, |h, &x| {
             let h = (h ^ x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
@@ -181,5 +217,5 @@ fn occupied(points: &[DVec3], edge: f64, most: usize) -> usize {
             }
         }
     }
-    count
+    Ok(count)
 }

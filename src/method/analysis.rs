@@ -25,6 +25,25 @@ pub enum AnalysisError {
     /// No center was found.
     #[error(transparent)]
     Center(#[from] CenterError),
+    /// The cubes of the voxel grid are finer than coordinates are exact.
+    #[error("voxels of {edge_cm:e} cm are finer than its coordinates are exact; leave the voxel grid out")]
+    VoxelsTooFine {
+        /// The edge in centimeters.
+        edge_cm: f64,
+    },
+    /// The cubes of the voxel grid are so large that hardly a point is left.
+    #[error(
+        "voxels of {edge_cm} cm leave {left} of its {points} points, and at least {} are needed",
+        Surface::MIN_POINTS
+    )]
+    VoxelsTooLarge {
+        /// The edge in centimeters.
+        edge_cm: f64,
+        /// Points that are left.
+        left: usize,
+        /// Points before the voxel grid.
+        points: usize,
+    },
     /// One camera cannot have seen this from there.
     #[error(
         "the viewpoint ({:.4}, {:.4}, {:.4}) lies inside the cloud, so no camera there can have seen it; state where it was",
@@ -92,6 +111,9 @@ pub struct Analysis {
     pub params: Params,
     /// The used points and their normals.
     pub surface: Arc<Surface>,
+    /// The indices of the cloud's [`crate::geometry::strays`], ascending; they are left out of the used points
+    /// unless [`super::Filters::keep_strays`] is set.
+    pub strays: Arc<Vec<usize>>,
     /// The edge of the sample's cubes in the file's unit, if the used points are a sample (see
     /// [`super::Filters::max_points`]).
     pub sample_edge: Option<f64>,
@@ -126,6 +148,7 @@ impl Analysis {
         let mut analysis = Self {
             params: params.clone(),
             surface: used.surface.clone(),
+            strays: used.strays.clone(),
             sample_edge: used.sample.map(|sample| sample.edge),
             center,
             planes,

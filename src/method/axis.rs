@@ -44,6 +44,8 @@ pub fn symmetry_axis(plane_normal: DVec3, center: DVec3, viewpoint: DVec3) -> Re
 pub enum AxisSource {
     /// Eq. 16, from the symmetry plane.
     SymmetryPlane,
+    /// A plane or a body fitted to the points, by the estimator of this name.
+    Fitted(&'static str),
     /// § 3.2: from the fruit center through the mean of the peduncle's points.
     Peduncle,
     /// The line along which the peduncle's points are spread most.
@@ -63,6 +65,7 @@ impl AxisSource {
     pub fn name(&self) -> Cow<'static, str> {
         match self {
             Self::SymmetryPlane => "symmetry-plane".into(),
+            Self::Fitted(estimator) => (*estimator).into(),
             Self::Peduncle => "peduncle".into(),
             Self::PeduncleDirection => "peduncle-direction".into(),
             Self::Simulation => "simulation".into(),

@@ -14,6 +14,7 @@ mod candidates;
 mod center;
 mod detail;
 mod error;
+mod error_parts;
 mod params;
 mod partners;
 mod score;
@@ -32,6 +33,7 @@ pub use center::{
 };
 pub use detail::{Partner, PlaneDetail, PointDetail, Side, plane_detail};
 pub use error::axis_error_rad;
+pub use error_parts::{CandidateAxes, ErrorParts, NearestCandidate, lean_rad};
 pub use params::{Filters, NormalSource, OutlierFilter, ParamError, Params, Preset, TAU_CM_PER_RAD};
 pub use score::{Aggregation, NoSymmetryPlane, Ranking};
 pub use stages::{Observe, Stage, Stages, analyze};

@@ -30,10 +30,13 @@ pub struct OutlierFilter {
     pub std_ratio: f64,
 }
 
-/// The filters of a cloud, in their order: outliers, voxel grid, and the sample of a cloud that is still
-/// too large. The first two are off by default.
+/// The filters of a cloud, in their order: strays, outliers, voxel grid, and the sample of a cloud that is
+/// still too large. Outliers and voxel grid are off by default.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Filters {
+    /// Whether [`crate::geometry::strays`], points far from all others, are analyzed with them.
+    #[serde(default)]
+    pub keep_strays: bool,
     /// The filter of statistical outliers.
     pub outliers: Option<OutlierFilter>,
     /// The edge of the voxel grid in centimeters, which leaves one point for each cube.
@@ -58,6 +61,7 @@ impl Filters {
 impl Default for Filters {
     fn default() -> Self {
         Self {
+            keep_strays: false,
             outliers: None,
             voxel_cm: None,
             max_points: Self::MOST,
@@ -143,15 +147,24 @@ pub enum ParamError {
     /// A coordinate is not finite.
     #[error("the {0} must have finite coordinates")]
     NotFinite(&'static str),
+    /// A number is so large that results would overflow.
+    #[error("the {0} must be at most {max:e}, not {1:e}", max = Params::LARGEST)]
+    TooLarge(&'static str, f64),
     /// A number that must be positive is not.
     #[error("the {0} must be a positive number, not {1}")]
     NotPositive(&'static str, f64),
     /// The random search has no points to try.
     #[error("the center's search needs at least one random point")]
     NoRandomPoints,
+    /// The random search has more points than memory or patience.
+    #[error("the center's search tries at most {max} random points, not {0}", max = RandomSearch::MOST)]
+    TooManyRandomPoints(usize),
 }
 
 impl Params {
+    /// The largest number that a parameter or a coordinate may be: squares and sums of such numbers are finite.
+    pub const LARGEST: f64 = 1e100;
+
     /// The parameters of a preset with the paper's numbers, for a cloud in `unit` seen from the origin.
     pub fn new(preset: Preset, unit: Unit) -> Self {
         let aggregation = preset.aggregation();
@@ -166,6 +179,15 @@ impl Params {
             min_partner_fraction: aggregation.default_min_partner_fraction(),
             viewpoint: DVec3::ZERO,
             filters: Filters::default(),
+        }
+    }
+
+    /// The same parameters with the fruit center given, in the file's unit and frame.
+    #[must_use]
+    pub fn with_center(&self, center: DVec3) -> Self {
+        Self {
+            center: CenterMethod::Given(center),
+            ..self.clone()
         }
     }
 
@@ -196,6 +218,7 @@ impl Params {
         if !(self.tau_cm_per_rad.is_finite() && self.tau_cm_per_rad >= 0.0) {
             return Err(ParamError::Tau(self.tau_cm_per_rad));
         }
+        at_most("weight τ in centimeters per radian", self.tau_cm_per_rad)?;
         if self.k.get() < 3 {
             return Err(ParamError::NeighborCount(self.k.get()));
         }
@@ -205,6 +228,10 @@ impl Params {
         if !self.viewpoint.is_finite() {
             return Err(ParamError::NotFinite("viewpoint"));
         }
+        at_most(
+            "viewpoint's distance along an axis",
+            self.viewpoint.abs().max_element(),
+        )?;
         let positive = |name, value: f64| {
             if value.is_finite() && value > 0.0 {
                 Ok(())
@@ -223,13 +250,28 @@ impl Params {
         }
         match &self.center {
             CenterMethod::Given(center) if !center.is_finite() => Err(ParamError::NotFinite("center")),
+            CenterMethod::Given(center) => {
+                at_most("center's distance along an axis", center.abs().max_element())
+            }
             CenterMethod::MeanRms(search) | CenterMethod::Equidistant(search) => {
                 if search.count == 0 {
                     return Err(ParamError::NoRandomPoints);
                 }
-                positive("spread of the center's random points", search.spread)
+                if search.count > RandomSearch::MOST {
+                    return Err(ParamError::TooManyRandomPoints(search.count));
+                }
+                positive("spread of the center's random points", search.spread)?;
+                at_most("spread of the center's random points", search.spread)
             }
-            _ => Ok(()),
+            CenterMethod::Sphere => Ok(()),
         }
+    }
+}
+
+fn at_most(name: &'static str, value: f64) -> Result<(), ParamError> {
+    if value <= Params::LARGEST {
+        Ok(())
+    } else {
+        Err(ParamError::TooLarge(name, value))
     }
 }

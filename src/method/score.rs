@@ -73,6 +73,7 @@ impl Ranking {
             enough
                 .then(|| aggregation.score_cm(term, tau_cm_per_rad))
                 .flatten()
+                .filter(|score| score.is_finite())
         };
         let scores_cm: Vec<Option<f64>> = planes.terms.iter().map(score).collect();
         let mut scored: Vec<(f64, usize)> = scores_cm

@@ -5,12 +5,13 @@ use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 
-use crate::geometry::{Cloud, Spread, estimate_normals};
+use super::Params;
+use crate::geometry::{Cloud, Extent, Spread, estimate_normals};
 use crate::neighbors::Neighbors;
 use crate::parallel::{Cancelled, Watch};
 
 /// Why a cloud cannot be used as a surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
     /// There are fewer than [`Surface::MIN_POINTS`] points.
     #[error("it has {found} points, and at least {} are needed", Surface::MIN_POINTS)]
@@ -23,6 +24,18 @@ pub enum SurfaceError {
     AllPointsEqual {
         /// Points of the cloud.
         points: usize,
+    },
+    /// The coordinates are out of the range of the computation.
+    #[error(
+        "its coordinates reach {largest:e} and its points span {span:e}: at most {max:e} and at least {min:e} can be computed with",
+        max = Params::LARGEST,
+        min = 1.0 / Params::LARGEST
+    )]
+    OutOfRange {
+        /// The largest coordinate by amount, in the file's unit.
+        largest: f64,
+        /// The longest edge of the points' box, in the file's unit.
+        span: f64,
     },
     /// All points lie on a line.
     #[error("all of its {points} points lie on a line")]
@@ -191,6 +204,13 @@ fn check_spread(points: &[DVec3]) -> Result<(), SurfaceError> {
     }
     if points.iter().all(|&p| p == points[0]) {
         return Err(SurfaceError::AllPointsEqual { points: found });
+    }
+    if let Some(extent) = Extent::of(points) {
+        let largest = extent.min.abs().max(extent.max.abs()).max_element();
+        let span = extent.size().max_element();
+        if largest > Params::LARGEST || span < 1.0 / Params::LARGEST {
+            return Err(SurfaceError::OutOfRange { largest, span });
+        }
     }
     if Spread::of_points(points).is_none_or(|s| s.is_line()) {
         return Err(SurfaceError::PointsOnALine { points: found });

@@ -6,8 +6,10 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{AnalysisError, Filters, NormalSource, Observe, Params, Stage, Surface, is_viewpoint_inside};
-use crate::geometry::{Cloud, Unit, statistical_inliers, voxel_edge_for, voxel_grid};
-use crate::parallel::{Cancelled, Watch};
+use crate::geometry::{
+    Cloud, Extent, Unit, statistical_inliers, strays_watched, voxel_edge_for, voxel_grid_watched, without,
+};
+use crate::parallel::Watch;
 
 /// The points that are left after the filters and have a normal, with the counts that the warnings
 /// about them are made of.
@@ -15,6 +17,10 @@ use crate::parallel::{Cancelled, Watch};
 pub(super) struct UsedPoints {
     /// The points and their normals.
     pub(super) surface: Arc<Surface>,
+    /// The indices of the strays in the cloud, ascending.
+    pub(super) strays: Arc<Vec<usize>>,
+    /// Points of the cloud, before the filters.
+    pub(super) all: usize,
     /// Points after the filters, before those without a normal are left out.
     pub(super) filtered: usize,
     /// The sampling that [`Filters::max_points`] asked for; `None` for a cloud that is small enough.
@@ -62,7 +68,8 @@ impl UsedPoints {
     /// them, or if the watch cancels the work.
     pub(super) fn new(cloud: &Cloud, params: &Params, observe: &dyn Observe) -> Result<Self, AnalysisError> {
         observe.entered(Stage::Filters);
-        let (filtered, sample) = filter(cloud, params, observe)?;
+        let (all, strays) = (cloud.len(), strays_watched(cloud.positions(), observe)?);
+        let (filtered, sample) = filter(cloud, &strays, params, observe)?;
         let cloud = filtered.as_ref().unwrap_or(cloud);
         observe.entered(Stage::Normals);
         let viewpoint = params.viewpoint;
@@ -74,6 +81,8 @@ impl UsedPoints {
             return Err(AnalysisError::ViewpointInsideCloud { viewpoint });
         }
         Ok(Self {
+            strays: Arc::new(strays),
+            all,
             filtered: cloud.len(),
             sample,
             facing_away: surface.facing_away(viewpoint),
@@ -85,27 +94,56 @@ impl UsedPoints {
 /// Returns the filtered cloud, or `None` if no filter changed it, and the sampling, if there was one.
 fn filter(
     cloud: &Cloud,
+    strays: &[usize],
     params: &Params,
     watch: &dyn Watch,
-) -> Result<(Option<Cloud>, Option<Sample>), Cancelled> {
+) -> Result<(Option<Cloud>, Option<Sample>), AnalysisError> {
     let Filters {
+        keep_strays,
         outliers,
         voxel_cm,
         max_points,
     } = params.filters;
     let mut filtered = None;
+    if !(keep_strays || strays.is_empty()) {
+        let kept: Vec<usize> = without(strays, cloud.len()).collect();
+        filtered = Some(cloud.select(&kept));
+    }
     if let Some(outliers) = outliers {
+        let cloud = filtered.as_ref().unwrap_or(cloud);
         let inliers = statistical_inliers(cloud.positions(), outliers.neighbors, outliers.std_ratio, watch)?;
         filtered = Some(cloud.select(&inliers));
     }
     if let Some(edge_cm) = voxel_cm {
         let cloud = filtered.as_ref().unwrap_or(cloud);
-        filtered = Some(voxel_grid(cloud, edge_cm / params.unit.in_cm()));
+        filtered = Some(thinned(cloud, edge_cm, params.unit, watch)?);
     }
     let cloud = filtered.as_ref().unwrap_or(cloud);
     let Some(edge) = voxel_edge_for(cloud.positions(), max_points, watch)? else {
         return Ok((filtered, None));
     };
     let points = cloud.len();
-    Ok((Some(voxel_grid(cloud, edge)), Some(Sample { edge, points })))
+    let thinned = voxel_grid_watched(cloud, edge, watch)?;
+    Ok((Some(thinned), Some(Sample { edge, points })))
+}
+
+/// Thins a cloud by the voxel grid that was asked for.
+fn thinned(cloud: &Cloud, edge_cm: f64, unit: Unit, watch: &dyn Watch) -> Result<Cloud, AnalysisError> {
+    // From here on, the number of a cube is not exact, and coordinates may be farther apart than cubes.
+    const FINEST: f64 = 1.0 / f64::EPSILON;
+    let edge = edge_cm / unit.in_cm();
+    let farthest = Extent::of(cloud.positions()).map_or(0.0, |e| e.min.abs().max(e.max.abs()).max_element());
+    if edge < f64::MIN_POSITIVE || farthest / edge > FINEST {
+        return Err(AnalysisError::VoxelsTooFine { edge_cm });
+    }
+    let thinned = voxel_grid_watched(cloud, edge, watch)?;
+    let (left, points) = (thinned.len(), cloud.len());
+    if left < Surface::MIN_POINTS && points >= Surface::MIN_POINTS {
+        return Err(AnalysisError::VoxelsTooLarge {
+            edge_cm,
+            left,
+            points,
+        });
+    }
+    Ok(thinned)
 }

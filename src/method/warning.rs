@@ -7,6 +7,24 @@ use crate::geometry::angle_between_lines_rad;
 /// A finding that makes the result less certain, without being an error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Warning {
+    /// Strays were left out.
+    #[error("{strays} of {points} points lie far from all others and are left out as strays")]
+    StraysLeftOut {
+        /// Points that were left out.
+        strays: usize,
+        /// Points of the cloud.
+        points: usize,
+    },
+    /// Strays are analyzed with the other points.
+    #[error(
+        "{strays} of {points} points lie far from all others and are analyzed nevertheless: strays can turn the axis"
+    )]
+    StraysKept {
+        /// Points that lie far from all others.
+        strays: usize,
+        /// Points of the cloud.
+        points: usize,
+    },
     /// A sample stands for the cloud.
     #[error(
         "{sampled} of {points} points are analyzed, the means of cubes of {edge_cm:.4} cm: more than the {most} that are allowed would take long"
@@ -88,6 +106,14 @@ const AMBIGUOUS_LEAD: f64 = 0.02;
 /// Warnings about the used points.
 pub(super) fn point_warnings(used: &UsedPoints, params: &Params) -> Vec<Warning> {
     let mut warnings = Vec::new();
+    let (strays, points) = (used.strays.len(), used.all);
+    if strays > 0 {
+        warnings.push(if params.filters.keep_strays {
+            Warning::StraysKept { strays, points }
+        } else {
+            Warning::StraysLeftOut { strays, points }
+        });
+    }
     let (points, k) = (used.filtered, params.k.get());
     if let Some(sample) = used.sample {
         warnings.push(Warning::Sampled {

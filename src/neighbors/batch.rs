@@ -5,9 +5,10 @@ use pulp::Simd;
 
 use super::Neighbors;
 use super::block::{Block, Column};
+use super::exact::ExactBoxes;
 use super::lanes::BLOCK;
-use super::leaf::LEAF;
 use super::traversal::Traversal;
+use super::tree::LEAF;
 
 /// The nearest place of each query of a block.
 #[derive(Debug, Default)]
@@ -41,11 +42,13 @@ pub(crate) struct BatchSearch<'a, S> {
 impl<'a, S: Simd> BatchSearch<'a, S> {
     #[inline(always)]
     pub(crate) fn new(index: &'a Neighbors, simd: S) -> Self {
+        let mut block = Block::default();
+        block.looked.reserve(64);
         Self {
             simd,
             index,
             last: 0,
-            block: Block::default(),
+            block,
             waiting: Vec::with_capacity(64),
         }
     }
@@ -58,7 +61,8 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
         if !self.block.begin(simd, queries) {
             let center = self.block.center;
             let leaf = tree.descend(&center);
-            self.last = tree.nearest_in(leaf, DVec3::from_array(center)).1;
+            let nowhere = (f64::INFINITY, u32::MAX, leaf * LEAF);
+            self.last = self.index.nearer_in(leaf, DVec3::from_array(center), nowhere).2;
         }
         self.search();
         let (count, last) = self.block.candidates();
@@ -74,6 +78,7 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
                 None => self.exact(i, DVec3::new(queries[0][i], queries[1][i], queries[2][i])),
             };
             result.position[i] = position as u32;
+            self.last = position;
             let point = tree.point(position);
             for e in 0..3 {
                 found[e][i] = point[e];
@@ -84,17 +89,19 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
             let z = queries[2][i] - found[2][i];
             result.distance_squared[i] = x * x + y * y + z * z;
         }
-        self.last = result.position[size - 1] as usize;
     }
 
     /// Looks into all leaves that may hold the nearest point of any query, first of all into that of the last
-    /// one.
+    /// one; into none where single precision tells nothing.
     #[inline(always)]
     fn search(&mut self) {
         let (simd, tree, block) = (self.simd, &self.index.tree, &mut self.block);
         let start = self.last / LEAF;
         block.begin_with::<S>(&tree.point(self.last));
-        block.look_into(simd, tree, start);
+        if block.is_blind(tree) {
+            return;
+        }
+        block.look_into(simd, tree, start, block.sight(&tree.leaves[start]));
         block.update_reach(simd);
         let mut first_excess = block.first_excess(simd);
         self.waiting.clear();
@@ -106,7 +113,7 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
             if excess > first_excess {
                 self.waiting.push((excess, leaf));
             } else {
-                block.look_into(simd, tree, leaf);
+                block.look_into(simd, tree, leaf, block.sight(&tree.leaves[leaf]));
                 if block.looked.len() % ROUND == 0 {
                     block.update_reach(simd);
                     first_excess = block.first_excess(simd);
@@ -115,8 +122,12 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
         }
         block.update_reach(simd);
         for (i, &(excess, leaf)) in self.waiting.iter().enumerate() {
-            if !(excess > block.reach) && block.may_find_in::<S>(&tree.leaves[leaf]) {
-                block.look_into(simd, tree, leaf);
+            if excess > block.reach {
+                continue;
+            }
+            let sight = block.sight(&tree.leaves[leaf]);
+            if block.may_find_in::<S>(&tree.leaves[leaf], &sight) {
+                block.look_into(simd, tree, leaf, sight);
                 if self.waiting.len() - i > MANY {
                     block.update_reach(simd);
                 }
@@ -124,25 +135,28 @@ impl<'a, S: Simd> BatchSearch<'a, S> {
         }
     }
 
-    /// The position of the place nearest to query `i`, among all that single precision could not tell apart.
+    /// The position of the place nearest to query `i` among all that single precision could not tell apart.
     #[cold]
     #[inline(never)]
     fn exact(&self, i: usize, query: DVec3) -> usize {
-        let (index, tree) = (self.index, &self.index.tree);
-        let mut best = (f64::INFINITY, usize::MAX);
-        for looked in &self.block.looked {
-            if looked.lower.0[i] > self.block.upper.0[i] {
-                continue;
-            }
-            // The points of a leaf are sorted by number: the first of equals is the lowest.
-            let (squared, position) = tree.nearest_in(looked.leaf, query);
-            let is_better = squared < best.0
-                || best.1 == usize::MAX
-                || (squared == best.0 && index.first[position] < index.first[best.1]);
-            if is_better {
-                best = (squared, position);
-            }
+        let (index, last, block) = (self.index, self.last, &self.block);
+        let mut best = (
+            index.tree.point(last).distance_squared(query),
+            index.first[last],
+            last,
+        );
+        if block.looked.is_empty() {
+            let exact_boxes = index.exact_boxes.get_or_init(|| ExactBoxes::new(index));
+            return exact_boxes.nearest(index, query, best).2;
         }
-        best.1
+        // What is not inlined is built for this machine's vector instructions only in here.
+        self.simd.vectorize(|| {
+            for looked in &block.looked {
+                if !(looked.lower.0[i] > block.upper.0[i]) {
+                    best = index.nearer_in(looked.leaf, query, best);
+                }
+            }
+        });
+        best.2
     }
 }

@@ -4,8 +4,7 @@ use glam::DVec3;
 use pulp::Simd;
 
 use super::lanes::{BLOCK, Lanes, ROUNDING, SUM_ROUNDING, rounding_of_squared, times_plus};
-use super::leaf::{LEAF, Leaf};
-use super::tree::Tree;
+use super::tree::{LEAF, Leaf, Tree};
 
 /// A coordinate of each query.
 pub(crate) type Column = [f64; BLOCK];
@@ -17,13 +16,13 @@ const FIRST: f32 = 0.05;
 /// A block whose center moved by so many times the radii of both blocks is somewhere else.
 const JUMP: f64 = 8.0;
 
+/// Distances of a leaf's points differ by up to its size. They are told apart if so many times the rounding is less.
+const BLIND: f32 = 16.0;
+
 /// A leaf that was looked into.
 pub(super) struct Looked {
     pub(super) leaf: usize,
-    /// Its center, seen from the center of the queries.
-    center: [f32; 3],
-    /// The least difference of two squared distances that tells two of its points apart.
-    ties: f32,
+    sight: Sight,
     /// The lower bounds of each query's squared distance from its points.
     pub(super) lower: Lanes,
 }
@@ -55,7 +54,7 @@ pub(super) struct Block {
 }
 
 /// A leaf as seen from the center of a block.
-struct Sight {
+pub(super) struct Sight {
     center: [f32; 3],
     /// The excess of the leaf's squared distance over the reference.
     farther: f32,
@@ -118,6 +117,13 @@ impl Block {
         }
     }
 
+    /// Whether the points are so far that rounding hides which of a leaf's points are nearer.
+    #[inline(always)]
+    pub(super) fn is_blind(&self, tree: &Tree) -> bool {
+        let size = (self.reference as f32).sqrt() + self.radius;
+        !(BLIND * rounding_of_squared(size) < tree.typical_radius * size)
+    }
+
     /// The excess over the reference up to which leaves are looked into first.
     #[inline(always)]
     pub(super) fn first_excess<S: Simd>(&self, simd: S) -> f32 {
@@ -127,7 +133,7 @@ impl Block {
     }
 
     #[inline(always)]
-    fn sight(&self, leaf: &Leaf) -> Sight {
+    pub(super) fn sight(&self, leaf: &Leaf) -> Sight {
         let (mut center, mut squared, mut distance) = ([0.0; 3], 0.0, 0.0);
         for e in 0..3 {
             let c = leaf.center[e] - self.center[e];
@@ -149,8 +155,7 @@ impl Block {
 
     /// Whether the box of a leaf may hold a point nearer to any query than those found.
     #[inline(always)]
-    pub(super) fn may_find_in<S: Simd>(&self, leaf: &Leaf) -> bool {
-        let sight = self.sight(leaf);
+    pub(super) fn may_find_in<S: Simd>(&self, leaf: &Leaf, sight: &Sight) -> bool {
         let c = sight.center;
         let [x, y, z] = &self.local;
         let mut excess = [sight.farther - sight.rounding; BLOCK];
@@ -180,9 +185,10 @@ impl Block {
 
     /// Looks for nearer points in a leaf, in which it must not have looked before.
     #[inline(always)]
-    pub(super) fn look_into<S: Simd>(&mut self, simd: S, tree: &Tree, leaf: usize) {
+    pub(super) fn look_into<S: Simd>(&mut self, simd: S, tree: &Tree, leaf: usize, sight: Sight) {
+        #[cfg(test)]
+        super::work_tests::count(BLOCK);
         let near = &tree.leaves[leaf];
-        let sight = self.sight(near);
         let rounding = simd.splat_f32s(sight.rounding);
         let [x, y, z] = &near.minus_twice;
         let mut lower = Lanes::default();
@@ -219,12 +225,7 @@ impl Block {
                 *upper = simd.min_f32s(simd.add_f32s(excess, rounding), *upper);
             }
         }
-        self.looked.push(Looked {
-            leaf,
-            center: sight.center,
-            ties: sight.ties,
-            lower,
-        });
+        self.looked.push(Looked { leaf, sight, lower });
     }
 
     /// Draws the reach in to what was found.
@@ -273,7 +274,7 @@ impl Block {
         let near = &tree.leaves[looked.leaf];
         let mut w = [0.0; 3];
         for e in 0..3 {
-            w[e] = self.local[e].0[query] - looked.center[e];
+            w[e] = self.local[e].0[query] - looked.sight.center[e];
         }
         let [x, y, z] = &near.minus_twice;
         let mut excess = Lanes::default();
@@ -282,7 +283,7 @@ impl Block {
             let more = times_plus::<S>(w[1], y[j], more);
             excess.0[j] = times_plus::<S>(w[2], z[j], more);
         }
-        let limit = excess.least(simd) + looked.ties;
+        let limit = excess.least(simd) + looked.sight.ties;
         // Each place within the limit adds its code. The sum of several is no code.
         let mut codes = Lanes::default();
         for j in 0..LEAF {

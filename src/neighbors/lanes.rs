@@ -41,34 +41,32 @@ impl Lanes {
         S::as_mut_simd_f32s(&mut self.0).0
     }
 
+    /// The numbers of all vectors joined by `join`, beginning with `start` in each lane.
+    #[inline(always)]
+    fn joined<S: Simd>(&self, simd: S, start: f32, join: impl Fn(S::f32s, S::f32s) -> S::f32s) -> S::f32s {
+        let mut all = simd.splat_f32s(start);
+        for &vector in self.vectors::<S>() {
+            all = join(all, vector);
+        }
+        all
+    }
+
     /// The sum of all numbers.
     #[inline(always)]
     pub(super) fn sum<S: Simd>(&self, simd: S) -> f32 {
-        let mut sum = simd.splat_f32s(0.0);
-        for &vector in self.vectors::<S>() {
-            sum = simd.add_f32s(sum, vector);
-        }
-        simd.reduce_sum_f32s(sum)
+        simd.reduce_sum_f32s(self.joined(simd, 0.0, |a, b| simd.add_f32s(a, b)))
     }
 
     /// The least of all numbers.
     #[inline(always)]
     pub(super) fn least<S: Simd>(&self, simd: S) -> f32 {
-        let mut least = simd.splat_f32s(f32::INFINITY);
-        for &vector in self.vectors::<S>() {
-            least = simd.min_f32s(least, vector);
-        }
-        simd.reduce_min_f32s(least)
+        simd.reduce_min_f32s(self.joined(simd, f32::INFINITY, |a, b| simd.min_f32s(a, b)))
     }
 
     /// The greatest of all numbers and zero.
     #[inline(always)]
     pub(super) fn greatest<S: Simd>(&self, simd: S) -> f32 {
-        let mut greatest = simd.splat_f32s(0.0);
-        for &vector in self.vectors::<S>() {
-            greatest = simd.max_f32s(greatest, vector);
-        }
-        simd.reduce_max_f32s(greatest)
+        simd.reduce_max_f32s(self.joined(simd, 0.0, |a, b| simd.max_f32s(a, b)))
     }
 }
 

@@ -28,6 +28,7 @@
 //!
 //! The bound grows with the size of boxes and leaves, hardly with their distance. Where rounding leaves no number,
 //! a comparison counts as within reach. Clumps, strays and huge coordinates thus make a search slower, never wrong.
+//! Queries so far away that the bound hides all differences are answered in double precision alone (`exact`).
 //! Exact duplicates are removed first: no box can tell them apart.
 
 #![allow(
@@ -41,21 +42,25 @@
 mod batch;
 mod block;
 mod boxes;
+mod exact;
 mod lanes;
-mod leaf;
 mod nearest_places;
 mod order;
 mod traversal;
 mod tree;
+#[cfg(test)]
+mod work_tests;
 
+use std::sync::OnceLock;
+
+use exact::{Candidate, ExactBoxes};
 use glam::DVec3;
 use pulp::Simd;
-use rustc_hash::{FxBuildHasher, FxHashMap};
 
 pub(crate) use batch::{BatchSearch, BlockResult};
 pub(crate) use lanes::BLOCK;
 use order::spatial_order;
-use tree::Tree;
+use tree::{LEAF, Tree};
 
 /// One place in space and the points that lie exactly there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,6 +86,8 @@ pub struct Neighbors {
     start: Vec<u32>,
     /// All points, place by place.
     order: Vec<u32>,
+    /// Made when a query needs them.
+    exact_boxes: OnceLock<ExactBoxes>,
 }
 
 impl Neighbors {
@@ -93,29 +100,27 @@ impl Neighbors {
         let places: Vec<DVec3> = lowest.iter().map(|&i| points[i as usize]).collect();
         let place_order = spatial_order(&places);
         let in_order: Vec<DVec3> = place_order.iter().map(|&place| places[place as usize]).collect();
-        let mut position = vec![0; places.len()];
-        for (i, &place) in place_order.iter().enumerate() {
-            position[place as usize] = i;
-        }
-        let mut start = vec![0; places.len() + 1];
-        for &place in &place_of {
-            start[position[place as usize] + 1] += 1;
-        }
-        for i in 1..start.len() {
-            start[i] += start[i - 1];
-        }
-        let mut next = start.clone();
-        let mut order = vec![0; points.len()];
-        for (i, &place) in (0..).zip(&place_of) {
-            let slot = &mut next[position[place as usize]];
-            order[*slot as usize] = i;
-            *slot += 1;
+        let first: Vec<u32> = place_order.iter().map(|&place| lowest[place as usize]).collect();
+        let (mut start, mut order): (Vec<u32>, Vec<u32>) =
+            ((0..=first.len() as u32).collect(), first.clone());
+        if places.len() < points.len() {
+            let mut position = vec![0; places.len()];
+            for (i, &place) in (0..).zip(&place_order) {
+                position[place as usize] = i;
+            }
+            let position = |&i: &u32| position[place_of[i as usize] as usize];
+            order = (0..points.len() as u32).collect();
+            order.sort_by_key(position);
+            for at in &mut start {
+                *at = order.partition_point(|i| position(i) < *at) as u32;
+            }
         }
         Some(Self {
             tree: Tree::new(&in_order),
-            first: place_order.iter().map(|&place| lowest[place as usize]).collect(),
+            first,
             start,
             order,
+            exact_boxes: OnceLock::new(),
         })
     }
 
@@ -147,6 +152,26 @@ impl Neighbors {
         &self.first
     }
 
+    /// The nearest place in a leaf, or `best` if none there is nearer.
+    #[inline(always)]
+    fn nearer_in(&self, leaf: usize, query: DVec3, best: Candidate) -> Candidate {
+        #[cfg(test)]
+        work_tests::count(1);
+        let distances = self.tree.distances_squared(leaf, query);
+        // In eight lanes, as vectors can.
+        let lesser =
+            |a: [f64; 8], b: &[f64; 8]| std::array::from_fn(|i| if b[i] < a[i] { b[i] } else { a[i] });
+        let lanes = distances.as_chunks().0.iter().fold([f64::INFINITY; 8], lesser);
+        let least = lanes.into_iter().fold(f64::INFINITY, f64::min);
+        if least > best.0 {
+            return best;
+        }
+        // The points of a leaf are sorted by number: the first of equals is the lowest.
+        let position = leaf * LEAF + distances.iter().position(|&d| d == least).unwrap_or(0);
+        let found = (least, self.first[position], position);
+        if found < best { found } else { best }
+    }
+
     #[inline(always)]
     fn neighbor(&self, position: usize, distance_squared: f64) -> Neighbor {
         Neighbor {
@@ -159,17 +184,26 @@ impl Neighbors {
 
 /// The lowest point index of each distinct place, ascending, and the place of each point.
 fn distinct_places(points: &[DVec3]) -> (Vec<u32>, Vec<u32>) {
-    let mut known = FxHashMap::with_capacity_and_hasher(points.len(), FxBuildHasher);
-    let mut lowest = Vec::with_capacity(points.len());
-    let place = |(i, &p): (u32, &DVec3)| {
+    let mask = (2 * points.len()).next_power_of_two() - 1;
+    // A hash table: each place is in the first slot from its hash on that was free.
+    let mut table = vec![u32::MAX; mask + 1];
+    let (mut lowest, mut place_of) = (Vec::<u32>::new(), Vec::with_capacity(points.len()));
+    for (i, &p) in (0..).zip(points) {
         // Adding zero turns -0.0 into 0.0, so that equal coordinates have equal bits.
-        let bits = (p + 0.0).to_array().map(f64::to_bits);
-        *known.entry(bits).or_insert_with(|| {
+        let mut slot = (p + 0.0).to_array().iter().fold(0, |hash, x| {
+            let mixed = (hash ^ x.to_bits()).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            mixed ^ (mixed >> 32)
+        }) as usize;
+        while (lowest.get(table[slot & mask] as usize)).is_some_and(|&i| points[i as usize] != p) {
+            slot = slot.wrapping_add(1);
+        }
+        let place = &mut table[slot & mask];
+        if *place == u32::MAX {
+            *place = lowest.len() as u32;
             lowest.push(i);
-            lowest.len() as u32 - 1
-        })
-    };
-    let place_of = (0..).zip(points).map(place).collect();
+        }
+        place_of.push(*place);
+    }
     (lowest, place_of)
 }
 

@@ -5,8 +5,8 @@ use std::num::NonZeroUsize;
 use glam::DVec3;
 use pulp::Scalar;
 
-use super::leaf::LEAF;
 use super::traversal::Traversal;
+use super::tree::LEAF;
 use super::{Neighbor, Neighbors};
 
 impl Neighbors {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::leaf::LEAF;
+use super::tree::LEAF;
 use crate::parallel::join;
 
 /// The number of points from which sorting is worth another core.
@@ -16,7 +16,10 @@ pub(super) fn spatial_order(points: &[DVec3]) -> Vec<u32> {
     let mut items: Vec<Item> = points.iter().copied().zip(0..).collect();
     let from = extent(&items).0;
     sort(&mut items, from);
-    items.iter().map(|item| item.1).collect()
+    let mut order: Vec<u32> = items.iter().map(|item| item.1).collect();
+    // Of a leaf's points that are equally far the first is the one of the lowest number.
+    order.chunks_mut(LEAF).for_each(<[u32]>::sort_unstable);
+    order
 }
 
 /// Halves the items along their longest side, again and again. The first half is a power of two of leaves,
@@ -25,7 +28,6 @@ pub(super) fn spatial_order(points: &[DVec3]) -> Vec<u32> {
 fn sort(items: &mut [Item], from: DVec3) {
     let leaves = items.len().div_ceil(LEAF);
     if leaves < 2 {
-        items.sort_unstable_by_key(|item| item.1);
         return;
     }
     let (low, high) = extent(items);

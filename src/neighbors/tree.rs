@@ -7,8 +7,49 @@ use glam::DVec3;
 use pulp::Scalar;
 
 use super::boxes::{BoxGroup, OrientedBox, WIDTH};
-use super::leaf::{LEAF, Leaf};
 use crate::parallel::map_pieces;
+
+/// Points in a leaf.
+pub(super) const LEAF: usize = 32;
+
+/// The points of a leaf, coordinate by coordinate, seen from the center of their bounding box.
+#[derive(Debug, Clone, Copy)]
+// No vector straddles two lines of the cache.
+#[repr(C, align(64))]
+pub(super) struct Leaf {
+    /// -2 times the coordinates.
+    pub(super) minus_twice: [[f32; LEAF]; 3],
+    /// The squared distances from the center. Missing points of the last leaf lie at infinity.
+    pub(super) squared: [f32; LEAF],
+    /// The axes and the half extents of the bounding box.
+    pub(super) axes: [[f32; 3]; 3],
+    pub(super) half: [f32; 3],
+    /// At least the largest distance from the center of any point, and of any corner of the box.
+    pub(super) radius: f32,
+    pub(super) center: [f64; 3],
+}
+
+impl Leaf {
+    /// A leaf of `points`, at most [`LEAF`], within their bounding box.
+    pub(super) fn new(points: &[DVec3], bounds: &OrientedBox) -> Self {
+        let mut leaf = Self {
+            minus_twice: [[0.0; LEAF]; 3],
+            squared: [f32::INFINITY; LEAF],
+            axes: bounds.axes.map(|axis| axis.to_array()),
+            half: bounds.half.as_vec3().to_array(),
+            radius: bounds.half.length() as f32 * (1.0 + 1e-6),
+            center: bounds.center.to_array(),
+        };
+        for (i, &point) in points.iter().enumerate() {
+            let p = (point - bounds.center).as_vec3();
+            for e in 0..3 {
+                leaf.minus_twice[e][i] = -2.0 * p[e];
+            }
+            leaf.squared[i] = p.as_dvec3().length_squared() as f32;
+        }
+        leaf
+    }
+}
 
 #[derive(Debug)]
 pub(super) struct Tree {
@@ -21,6 +62,8 @@ pub(super) struct Tree {
     pub(super) levels: Vec<Vec<BoxGroup>>,
     /// The number of points.
     pub(super) len: usize,
+    /// The median of the leaves' radii.
+    pub(super) typical_radius: f32,
 }
 
 impl Tree {
@@ -47,15 +90,13 @@ impl Tree {
             size *= WIDTH;
         }
         let exact = points.chunks(LEAF).map(|points| {
-            let mut exact = [[f64::INFINITY; LEAF]; 3];
-            for (i, point) in points.iter().enumerate() {
-                for e in 0..3 {
-                    exact[e][i] = point[e];
-                }
-            }
-            exact
+            let at = |i, e| points.get(i).map_or(f64::INFINITY, |p: &DVec3| p[e]);
+            [0, 1, 2].map(|e| std::array::from_fn(|i| at(i, e)))
         });
+        let mut radii: Vec<f32> = leaves.iter().map(|leaf| leaf.radius).collect();
+        let middle = radii.len() / 2;
         Self {
+            typical_radius: *radii.select_nth_unstable_by(middle, f32::total_cmp).1,
             leaves,
             exact: exact.collect(),
             levels,
@@ -86,19 +127,6 @@ impl Tree {
             sum[i] = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         }
         sum
-    }
-
-    /// The squared distance from `q` to the nearest point of a leaf, and the first position that has it.
-    #[inline(always)]
-    pub(super) fn nearest_in(&self, leaf: usize, q: DVec3) -> (f64, usize) {
-        // The first position stands in where all distances overflow.
-        let mut best = (f64::INFINITY, leaf * LEAF);
-        for (position, squared) in (leaf * LEAF..).zip(self.distances_squared(leaf, q)) {
-            if squared < best.0 {
-                best = (squared, position);
-            }
-        }
-        best
     }
 
     /// A leaf near `from`: down the most promising boxes.

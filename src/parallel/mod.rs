@@ -106,10 +106,29 @@ pub(crate) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     }
 }
 
-/// Sorts on all cores.
-pub(crate) fn sort_unstable<T: Ord + Send>(values: &mut [T]) {
+/// Sorts on all cores. The watch is asked between pieces that take some hundredths of a second.
+pub(crate) fn sort_unstable<T: Ord + Send>(values: &mut [T], watch: &dyn Watch) -> Result<(), Cancelled> {
+    /// The most values that are sorted without a question.
+    const PIECE: usize = 1 << 20;
+    if watch.is_cancelled() {
+        return Err(Cancelled);
+    }
+    if values.len() > PIECE {
+        // Halves can be sorted one after the other, and the work called off in between.
+        let middle = values.len() / 2;
+        let (low, _, _) = values.select_nth_unstable(middle);
+        let middle = low.len();
+        let (low, high) = values.split_at_mut(middle);
+        let (mut of_low, mut of_high) = (Ok(()), Ok(()));
+        join(
+            || of_low = sort_unstable(low, watch),
+            || of_high = sort_unstable(high, watch),
+        );
+        return of_low.and(of_high);
+    }
     #[cfg(feature = "parallel")]
     values.par_sort_unstable();
     #[cfg(not(feature = "parallel"))]
     values.sort_unstable();
+    Ok(())
 }

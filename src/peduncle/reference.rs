@@ -1,7 +1,7 @@
 //! The peduncle and its reference axes (§ 3.2).
 
 use super::{HueRange, hue_deg};
-use crate::geometry::{Cloud, Extent, PointSet, Spread};
+use crate::geometry::{Cloud, Extent, PointSet, Spread, strays, without};
 use crate::method::{AxisEstimate, AxisSource};
 use crate::neighbors::Neighbors;
 use glam::DVec3;
@@ -200,7 +200,11 @@ impl Peduncle {
     }
 
     fn of_points(cloud: &Cloud, source: PeduncleSource, is_peduncle: impl Fn(usize) -> bool) -> Option<Self> {
-        let in_cloud: Vec<usize> = (0..cloud.len()).filter(|&i| is_peduncle(i)).collect();
+        // Whatever a stray's label or color: far from the fruit it is no part of it, and would pull the mean away.
+        let strays = strays(cloud.positions());
+        let in_cloud = without(&strays, cloud.len())
+            .filter(|&i| is_peduncle(i))
+            .collect();
         Self::of_indices(cloud, source, in_cloud)
     }
 

@@ -19,6 +19,10 @@ pub enum WindowAct {
     OpenFiles,
     /// Ask for a folder and open the clouds in it.
     OpenFolder,
+    /// Show the simulator and its pepper.
+    Simulate,
+    /// Ask for a path, and save the current cloud, which lies in no file.
+    SaveCloud,
     /// Ask for the size of a picture of the view.
     SaveImage,
     /// Ask for the path of a picture of this size in pixels, and save it.

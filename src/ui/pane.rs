@@ -34,11 +34,13 @@ pub enum Pane {
     /// The axes set by hand.
     #[serde(rename = "TrueAxis")]
     TrueAxes,
+    /// The simulated pepper.
+    Simulate,
 }
 
 impl Pane {
     /// All panes.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::View,
         Self::Clouds,
         Self::Parameters,
@@ -52,7 +54,13 @@ impl Pane {
         Self::Gallery,
         Self::Sweep,
         Self::TrueAxes,
+        Self::Simulate,
     ];
+
+    /// Whether the pane has no tab until somebody asks for it.
+    pub(in crate::ui) fn is_on_demand(self) -> bool {
+        self == Self::Simulate
+    }
 
     /// Whether a key brings the pane to the front.
     pub(in crate::ui) fn has_key(self) -> bool {
@@ -78,6 +86,7 @@ impl Pane {
             Self::Gallery => "Gallery",
             Self::Sweep => "Sweep",
             Self::TrueAxes => "True axes",
+            Self::Simulate => "Simulate",
         }
     }
 }

@@ -176,13 +176,13 @@ fn by_category(
         counts[category] += 1;
         categories[category].0
     });
-    let colors = colors.collect();
+    let mut colors: Vec<Color> = colors.collect();
     let mut swatches: Vec<Swatch> = categories
         .iter()
         .zip(&counts)
         .map(|(&(color, label), &count)| Swatch::counted(color, label, count, shown.len()))
         .collect();
-    swatches.extend(unused_swatch(unused, shown.len()));
+    swatches.extend(mark_unused(shown, unused, &mut colors));
     Colored {
         colors,
         legend: Legend {
@@ -193,8 +193,25 @@ fn by_category(
     }
 }
 
-fn unused_swatch(unused: usize, of: usize) -> Option<Swatch> {
-    (unused > 0).then(|| Swatch::counted(NEUTRAL, "not used", unused, of))
+/// The color of a stray that was left out.
+const STRAY: Color = GREEN;
+
+/// Colors the strays that were left out, among the points that were `unused`, and returns the legend of all of these.
+fn mark_unused(shown: &ShownPoints, unused: usize, colors: &mut [Color]) -> Vec<Swatch> {
+    let mut strays = 0;
+    for &i in shown
+        .strays
+        .iter()
+        .filter(|&&i| shown.in_surface.get(i).is_none())
+    {
+        colors[i] = STRAY;
+        strays += 1;
+    }
+    let counts = [(STRAY, "stray", strays), (NEUTRAL, "not used", unused - strays)];
+    let counts = counts.into_iter().filter(|(_, _, count)| *count > 0);
+    counts
+        .map(|(color, label, count)| Swatch::counted(color, label, count, shown.len()))
+        .collect()
 }
 
 fn by_side(subject: Subject<'_>, detail: &PlaneDetail) -> Colored {
@@ -247,12 +264,12 @@ fn by_value(
         };
         value_color(if high > 0.0 { value / high } else { 0.0 })
     });
-    let colors = colors.collect();
+    let mut colors: Vec<Color> = colors.collect();
     let mut swatches = Vec::new();
     if without > 0 {
         swatches.push(Swatch::counted(VALUELESS, "no partner", without, shown.len()));
     }
-    swatches.extend(unused_swatch(unused, shown.len()));
+    swatches.extend(mark_unused(shown, unused, &mut colors));
     let ramp = (high > 0.0).then(|| Ramp {
         stops: VALUE_STOPS.to_vec(),
         ticks: ticks(high),
@@ -276,12 +293,7 @@ fn by_value(
 
 /// Round values from zero to `high`, which itself is the last one.
 fn ticks(high: f64) -> Vec<(f64, String)> {
-    let magnitude = 10_f64.powf((high / 3.0).log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0]
-        .map(|s| s * magnitude)
-        .into_iter()
-        .find(|s| high / s <= 4.0)
-        .unwrap_or(high);
+    let step = round_step(high, 4.0);
     let mut ticks: Vec<(f64, String)> = (0..=4)
         .map(|i| f64::from(i) * step)
         // Too near to the upper end the numbers would overlap.
@@ -290,6 +302,18 @@ fn ticks(high: f64) -> Vec<(f64, String)> {
         .collect();
     ticks.push((1.0, digits(high, high)));
     ticks
+}
+
+/// Returns the step of 1, 2 or 5 times a power of ten that gives at most `count` ticks up to `most`.
+pub fn round_step(most: f64, count: f64) -> f64 {
+    let rough = most / count;
+    let power = 10_f64.powf(rough.log10().floor());
+    let part = rough / power;
+    power
+        * [1.0, 2.0, 5.0]
+            .into_iter()
+            .find(|whole| part <= *whole)
+            .unwrap_or(10.0)
 }
 
 /// A value with the digits that a scale up to `high` resolves.
@@ -301,7 +325,7 @@ fn digits(value: f64, high: f64) -> String {
 fn by_normal(subject: Subject<'_>) -> Colored {
     let shown = subject.shown;
     let normals = subject.analysis.surface.normals();
-    let colors = shown
+    let mut colors: Vec<Color> = shown
         .in_surface
         .iter()
         .map(|place| place.map_or(NEUTRAL, |i| direction_color(normals[i])))
@@ -317,7 +341,7 @@ fn by_normal(subject: Subject<'_>) -> Colored {
         direction("up (−y)", glam::DVec3::NEG_Y),
         direction("to the camera (−z)", glam::DVec3::NEG_Z),
     ];
-    swatches.extend(unused_swatch(unused, shown.len()));
+    swatches.extend(mark_unused(shown, unused, &mut colors));
     Colored {
         colors,
         legend: Legend {

@@ -24,7 +24,9 @@ mod shown;
 mod style;
 
 pub use caption::{caption, grouped, lead_in_words};
-pub use coloring::{Colored, Coloring, ColoringError, Subject, color_bare, color_labels, color_points};
+pub use coloring::{
+    Colored, Coloring, ColoringError, Subject, color_bare, color_labels, color_points, round_step,
+};
 pub use compose::{Composition, PlaneView, SceneRequest, compose};
 #[cfg(feature = "window")]
 pub use drawing::{Drawing, DrawingError, DrawnCloud, draw_cloud, draw_page};

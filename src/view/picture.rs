@@ -98,6 +98,9 @@ pub fn encode_picture(image: &Image, settings: &PictureSettings) -> Result<Vec<u
     Ok(bytes)
 }
 
+/// The longest settings that are read from a PNG, in bytes.
+const LONGEST_SETTINGS: usize = 1 << 20;
+
 /// The settings in a PNG of [`encode_picture`].
 ///
 /// # Errors
@@ -107,17 +110,24 @@ pub fn picture_settings(png_bytes: &[u8]) -> Result<PictureSettings, PictureErro
     // Other programs may put the text behind the pixels.
     reader.finish()?;
     let chunks = &reader.info().utf8_text;
-    let chunk = chunks
-        .iter()
-        .find(|c| c.keyword == SETTINGS_KEY)
-        .ok_or(PictureError::NoSettings)?;
+    let chunk = chunks.iter().find(|c| c.keyword == SETTINGS_KEY);
+    let mut chunk = chunk.ok_or(PictureError::NoSettings)?.clone();
+    // Compressed by another program, a text can grow a thousandfold.
+    chunk.decompress_text_with_limit(LONGEST_SETTINGS)?;
     Ok(serde_json::from_str(&chunk.get_text()?)?)
 }
 
-/// The pixels of a PNG of [`encode_picture`]; `None` for any other PNG, and a broken one.
+/// The largest picture that is decoded, in bytes of pixels; 64 million of them.
+const LARGEST_PICTURE: usize = 3 << 26;
+
+/// The pixels of a PNG of [`encode_picture`]; `None` for any other PNG, a broken one, and one of more
+/// than 64 million pixels.
 pub fn decode_picture(png_bytes: &[u8]) -> Option<Image> {
     let mut reader = png::Decoder::new(Cursor::new(png_bytes)).read_info().ok()?;
-    let mut rgb = vec![0; reader.output_buffer_size()?];
+    let size = reader
+        .output_buffer_size()
+        .filter(|&size| size <= LARGEST_PICTURE)?;
+    let mut rgb = vec![0; size];
     let frame = reader.next_frame(&mut rgb).ok()?;
     if frame.color_type != png::ColorType::Rgb || frame.bit_depth != png::BitDepth::Eight {
         return None;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use crate::geometry::{Cloud, Extent, near_one_another};
+use crate::geometry::{Cloud, Extent, near_one_another, strays};
 use crate::method::{Analysis, Surface};
 use crate::neighbors::Neighbors;
 use crate::parallel::map_pieces;
@@ -25,6 +25,8 @@ pub struct ShownPoints {
     pub in_surface: Places,
     /// For each point the index of its point in the file; `None` if the points are the file's own.
     pub in_file: Option<Vec<usize>>,
+    /// The indices of the points that lie far from all others, ascending.
+    pub strays: Vec<usize>,
     /// The extent of the bulk of the points.
     pub extent: Extent,
     /// Positions relative to the extent's center, as the renderer needs them.
@@ -134,18 +136,23 @@ impl ShownPoints {
         colors: Option<Arc<Vec<Color>>>,
         labels: Option<Arc<Vec<i32>>>,
     ) -> Self {
-        let extent = Extent::robust(&positions).unwrap_or(Extent {
+        let strays = strays(&positions);
+        let extent = Extent::robust_without(&positions, &strays).unwrap_or(Extent {
             min: DVec3::ZERO,
             max: DVec3::ONE,
         });
         let origin = extent.center();
         Self {
-            local_positions: positions.iter().map(|&p| (p - origin).as_vec3()).collect(),
+            // Strays may lie farther away than single precision reaches.
+            local_positions: (positions.iter())
+                .map(|&p| (p - origin).clamp(-FARTHEST, FARTHEST).as_vec3())
+                .collect(),
             in_surface: Places::none(positions.len()),
             positions,
             colors,
             labels,
             in_file: None,
+            strays,
             extent,
         }
     }
@@ -168,6 +175,9 @@ impl ShownPoints {
         self.positions.is_empty()
     }
 }
+
+/// The farthest local position along an axis.
+const FARTHEST: DVec3 = DVec3::splat(1e30);
 
 /// For each point the used point of the very same coordinates: all but a voxel grid only leave points out.
 fn same_in(surface: &[DVec3], points: &[DVec3]) -> Places {

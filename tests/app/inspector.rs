@@ -7,7 +7,7 @@ use crate::helpers::driving::{act, app, asset, settle, with_sample};
 use axiscope::app::command_line;
 use axiscope::app::{App, Command, PlaneChoice, Sample, Session, SessionError, Source, Tool, quoted};
 use axiscope::fruit::Request;
-use axiscope::method::{Aggregation, CenterMethod, Params, Preset, analyze};
+use axiscope::method::{Aggregation, CenterMethod, Params, Preset, RandomSearch, analyze};
 use axiscope::render::Viewport;
 use axiscope::view::{Coloring, Overlay, Theme, ViewPreset};
 use glam::{DVec2, DVec3};
@@ -66,6 +66,41 @@ fn scoring_takes_effect_in_the_frame_that_asks_for_it() {
     let sum = analysis.planes.terms[best].distance_sum_cm;
     assert_eq!(analysis.ranking.scores_cm()[best], Some(sum));
     assert!(!app.state().is_stale);
+}
+
+#[test]
+fn the_error_is_taken_apart_with_the_true_center_in_the_frame_that_asks_for_it() {
+    let mut app = with_sample();
+    let check = |app: &App| {
+        let walked = app.state().walked.as_ref().expect("analyzed");
+        let truth = walked.fruit.truth.as_ref().expect("a sample has its truth");
+        let params = walked.analysis.params.with_center(truth.center);
+        let direct = analyze(walked.fruit.cloud(), &params, &()).expect("a pepper");
+        assert_eq!(walked.at_true_center.as_deref(), Some(&direct));
+        let parts = app.state().error_breakdown().expect("there is a reference");
+        let choice = parts.choice_part_deg.expect("an axis");
+        let sum = parts.lean_part_deg + parts.grid_part_deg + choice;
+        assert!((sum - parts.error_deg.expect("an axis")).abs() < 1e-9);
+        assert!(parts.true_center.is_some());
+        parts
+    };
+    let before = check(&app);
+    let mut wanted = request(&app);
+    wanted.params.tau_cm_per_rad = 0.0;
+    wanted.params.aggregation = Aggregation::Sum;
+    app.apply(Command::Set {
+        request: Box::new(wanted),
+        gesture: None,
+    });
+    app.update(Duration::ZERO);
+    assert!(!app.state().is_stale);
+    let after = check(&app);
+    assert_eq!(
+        before.lean_part_deg, after.lean_part_deg,
+        "scores do not change it"
+    );
+    set(&mut app, |request| request.params.u = 9);
+    check(&app);
 }
 
 #[test]
@@ -519,11 +554,23 @@ fn a_session_that_makes_no_sense_is_kept_aside() {
     let error = Session::read(&path).expect_err("no JSON");
     assert!(matches!(error, SessionError::Unreadable { .. }));
     assert!(!path.exists() && folder.path().join("session.unreadable.json").exists());
-    // Of another version, or with numbers out of range: begun anew.
+    // Of another version, or with numbers out of range: begun anew, and kept for whoever can read it.
     std::fs::write(&path, "{\"version\": 99}").expect("written");
     assert_eq!(Session::read(&path).expect("readable"), Session::first());
+    let kept = std::fs::read_to_string(folder.path().join("session.version-99.json"));
+    assert_eq!(kept.expect("moved aside"), "{\"version\": 99}");
+    assert!(!path.exists());
     let mut wild = Session::first();
     wild.settings.request.params.u = 100_000;
+    wild.write(&path).expect("written");
+    assert_eq!(Session::read(&path).expect("readable"), Session::first());
+    // So many random points that no memory holds them would end a worker.
+    let mut wild = Session::first();
+    let search = RandomSearch {
+        count: usize::MAX,
+        ..RandomSearch::default()
+    };
+    wild.settings.request.params.center = CenterMethod::Equidistant(search);
     wild.write(&path).expect("written");
     assert_eq!(Session::read(&path).expect("readable"), Session::first());
 }
@@ -578,4 +625,117 @@ fn paths_that_are_not_there_are_told() {
             .iter()
             .any(|m| m.text.contains("no PLY files"))
     );
+}
+
+/// A cloud on its way to the disk: an ellipsoid that is to be seen around a place.
+fn write_ellipsoid(path: &std::path::Path, points: usize, center_cm: DVec3) {
+    let settings = axiscope::simulate::EllipsoidSettings {
+        center_cm,
+        points,
+        ..Default::default()
+    };
+    let simulated = settings.simulate().expect("an ellipsoid");
+    let mut bytes = Vec::new();
+    axiscope::ply::write(
+        &mut bytes,
+        &simulated.cloud,
+        &axiscope::ply::WriteOptions::default(),
+    )
+    .expect("memory");
+    std::fs::write(path, bytes).expect("a file");
+}
+
+#[test]
+fn a_result_that_comes_after_its_cloud_was_left_is_not_shown_in_another_ones_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let places = [(0.0, 600), (40.0, 12_000), (-40.0, 600)];
+    let files: Vec<PathBuf> = (places.iter().enumerate())
+        .map(|(i, &(x, points))| {
+            let path = folder.path().join(format!("{i}.ply"));
+            write_ellipsoid(&path, points, DVec3::new(x, 0.0, 60.0));
+            path
+        })
+        .collect();
+    let (woken, wakes) = std::sync::mpsc::channel();
+    let repaint = std::sync::Arc::new(move || {
+        let _ = woken.send(());
+    });
+    let mut app = App::new(Session::first(), &(repaint as _)).expect("threads can be started");
+    act(&mut app, Command::Open(files));
+    act(&mut app, Command::Show(0));
+    let pivot_of_first = app.state().camera.pivot_in_world;
+
+    // The second cloud's analysis ends while nobody looks, and is found there when the third was chosen.
+    app.apply(Command::Show(1));
+    app.update(Duration::ZERO);
+    while wakes.recv_timeout(Duration::from_secs(2)).is_ok() {}
+    app.apply(Command::Show(2));
+    app.update(Duration::ZERO);
+    let shown = app
+        .state()
+        .walked
+        .as_ref()
+        .map(|walked| walked.fruit.cloud().len());
+    assert_ne!(shown, Some(12_000), "the cloud that was left");
+    settle(&mut app);
+    let moved = app.state().camera.pivot_in_world - pivot_of_first;
+    assert!((moved.x + 40.0).abs() < 2.0, "the camera moved by {moved}");
+}
+
+#[test]
+fn a_whole_scan_is_shown_and_can_be_looked_at_from_where_the_eye_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("whole.ply");
+    let settings = axiscope::simulate::EllipsoidSettings {
+        center_cm: DVec3::new(0.0, 0.0, 60.0),
+        ..Default::default()
+    };
+    let mut simulated = settings.simulate().expect("an ellipsoid");
+    // Both halves about the origin, where the viewpoint is.
+    let mut points: Vec<DVec3> = simulated
+        .cloud
+        .positions()
+        .iter()
+        .map(|p| *p - DVec3::Z * 60.0)
+        .collect();
+    points.extend(points.clone().iter().map(|p| -*p));
+    simulated.cloud = axiscope::geometry::Cloud::new(points);
+    let mut bytes = Vec::new();
+    axiscope::ply::write(
+        &mut bytes,
+        &simulated.cloud,
+        &axiscope::ply::WriteOptions::default(),
+    )
+    .expect("memory");
+    std::fs::write(&path, bytes).expect("a file");
+    let mut app = app();
+    act(&mut app, Command::Open(vec![path]));
+    assert!(app.state().is_viewpoint_inside && app.state().analysis().is_none());
+    assert!(app.state().look.is_some(), "it is shown");
+    act(&mut app, Command::LookFromHere);
+    assert!(!app.state().is_viewpoint_inside);
+    let analysis = app.state().analysis().expect("analyzed");
+    assert_eq!(analysis.params.viewpoint, app.state().camera.eye_in_world);
+    act(&mut app, Command::Undo);
+    assert!(app.state().is_viewpoint_inside);
+
+    // Or a depth camera takes the place of the eye, and what it sees is another cloud.
+    act(&mut app, Command::ScanFromHere);
+    let (whole, seen) = (
+        app.state().entries[0].source.clone(),
+        app.state().source().cloned(),
+    );
+    assert_eq!(app.state().entries.len(), 2);
+    assert_ne!(Some(whole), seen);
+    let walked = app.state().walked.clone().expect("analyzed");
+    let count = walked.fruit.cloud().len();
+    assert!((1_000..5_000).contains(&count), "{count} of 6000 points are seen");
+    assert!(
+        walked.fruit.cloud().positions().iter().all(|p| p.z > 0.0),
+        "before the camera"
+    );
+    let saved = folder.path().join("seen.ply");
+    act(&mut app, Command::SaveCloud(saved.clone()));
+    let read = axiscope::fruit::read_cloud(&saved).expect("written");
+    assert_eq!(read.ply.cloud.len(), count);
 }

@@ -7,6 +7,7 @@ mod inspector;
 mod many;
 mod many_tags;
 mod peduncle;
+mod simulator;
 mod true_axes;
 mod why;
 mod workers;

@@ -1,51 +1,11 @@
 //! What is written of an axis is what the schema says, any bytes can be read, and nudges keep their word.
 
-use std::path::{Path, PathBuf};
-
 use crate::helpers::disk::Disk;
-use axiscope::annotate::{
-    Annotation, Author, CloudId, Confidence, Ends, EndsError, Judgment, Pivot, Store, read_journal,
-};
+use crate::helpers::store::{NOW, ada, axis_path, id, judgment, open};
+use axiscope::annotate::{Annotation, Ends, EndsError, Judgment, Pivot, read_journal};
 use axiscope::geometry::Unit;
 use glam::DVec3;
 use proptest::prelude::*;
-
-const NOW: &str = "2026-03-01T12:00:00Z";
-
-fn id() -> CloudId {
-    CloudId {
-        file: "fruit.ply".into(),
-        sha256: "ab".repeat(32),
-    }
-}
-
-fn ada() -> Author {
-    Author::annotator("Ada").unwrap()
-}
-
-fn cloud() -> &'static Path {
-    Path::new("set/fruit.ply")
-}
-
-fn axis_path(copy: u32) -> PathBuf {
-    ada().axis_path(cloud(), copy)
-}
-
-fn open(disk: &Disk) -> Store {
-    let (store, writable) = Store::open(Box::new(disk.clone()), cloud(), id(), Unit::Meter, ada()).unwrap();
-    writable.unwrap();
-    store
-}
-
-/// An axis that is told from others by its length.
-fn judgment(length: f64) -> Judgment {
-    let ends = Ends::new(DVec3::new(0.1, -0.2, 0.5), DVec3::new(0.1, -0.2 + length, 0.5)).unwrap();
-    Judgment {
-        confidence: Confidence::new(0.7),
-        note: "a \"note\"\nof two lines, with ü".into(),
-        ..Judgment::by_hand(ends)
-    }
-}
 
 #[test]
 fn what_is_written_is_what_the_schema_says() {

@@ -5,8 +5,10 @@ mod helpers;
 
 mod annotating;
 mod annotating_format;
+mod calling_off;
 mod geometry;
 mod method_choices;
+mod method_error_parts;
 mod method_reference;
 mod method_stages;
 mod method_terms;
@@ -20,4 +22,5 @@ mod reading_units;
 mod reading_watched;
 mod sampling;
 mod simulating;
+mod strays;
 mod view;

@@ -290,6 +290,17 @@ fn params_out_of_range_are_refused() {
     assert!(check(|p| p.viewpoint.x = f64::INFINITY));
     assert!(check(|p| p.center = CenterMethod::Given(DVec3::NAN)));
     assert!(check(|p| p.filters.voxel_cm = Some(0.0)));
+    assert!(check(|p| p.tau_cm_per_rad = 1e308));
+    assert!(check(|p| p.viewpoint.y = -1e300));
+    assert!(check(|p| p.center = CenterMethod::Given(DVec3::splat(1e200))));
+    // More random points than memory.
+    let endless = RandomSearch {
+        count: usize::MAX,
+        ..RandomSearch::default()
+    };
+    let mut params = params();
+    params.center = CenterMethod::Equidistant(endless);
+    assert_eq!(params.check(), Err(ParamError::TooManyRandomPoints(usize::MAX)));
 }
 
 #[test]

@@ -150,3 +150,12 @@ fn every_point_of_a_sampled_cloud_is_shown_as_the_used_point_nearest_to_it() {
     let without = shown.in_surface.iter().filter(Option::is_none).count();
     assert!(without < 50, "{without}");
 }
+
+#[test]
+fn the_mean_of_the_largest_numbers_is_a_point_like_any_other() {
+    // Their sum is infinite; a point that is left out would leave its label behind.
+    let points = vec![DVec3::splat(1.7e308); 3];
+    let cloud = Cloud::new(points).with_labels(vec![1; 3]).unwrap();
+    let thinned = voxel_grid(&cloud, 1e308);
+    assert_eq!((thinned.len(), thinned.labels()), (1, Some(&[1][..])));
+}

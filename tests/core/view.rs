@@ -11,7 +11,8 @@ use axiscope::method::{
 use axiscope::render::{Camera, Insets, Projection, Viewport};
 use axiscope::view::{
     Coloring, ColoringError, NEUTRAL, Overlay, Overlays, Page, Primitive, SceneSettings, ShownPoints, Style,
-    Subject, Theme, ViewPreset, build_scene, color_points, framed_points, insets, lay_out, value_color,
+    Subject, Theme, ViewPreset, build_scene, color_points, framed_points, grouped, insets, lay_out,
+    round_step, value_color,
 };
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -397,4 +398,25 @@ fn nothing_is_cut_off_and_nothing_covers_anything() {
             assert!(boxes.len() >= 7);
         }
     }
+}
+
+#[test]
+fn ticks_are_round_and_few() {
+    for (most, count, expected) in [
+        (1.0, 4.0, 0.5),
+        (0.9, 5.0, 0.2),
+        (37.0, 4.0, 10.0),
+        (2.0, 2.0, 1.0),
+    ] {
+        assert!(
+            (round_step(most, count) - expected).abs() < 1e-12,
+            "{most} {count}"
+        );
+    }
+}
+
+#[test]
+fn thousands_are_parted() {
+    let texts = [0, 999, 1000, 1_234_567].map(grouped);
+    assert_eq!(texts, ["0", "999", "1,000", "1,234,567"]);
 }

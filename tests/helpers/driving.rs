@@ -5,7 +5,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use axiscope::app::{App, Command, Sample, Session};
-use axiscope::fruit::Request;
+use axiscope::fruit::{Fruit, Request, read_cloud};
+use axiscope::geometry::{Cloud, PointSet, Unit};
+use axiscope::peduncle::Peduncle;
+use axiscope::ply::{WriteOptions, write};
 
 /// A program with nothing open.
 pub fn app() -> App {
@@ -60,4 +63,28 @@ pub fn set(app: &mut App, change: impl FnOnce(&mut Request)) {
             gesture: None,
         },
     );
+}
+
+/// The cloud that is shown, with all that its files say.
+pub fn fruit(app: &App) -> &Arc<Fruit> {
+    &app.state().walked.as_ref().expect("analyzed").fruit
+}
+
+/// Writes a cloud in centimeters and returns its path.
+pub fn write_cloud(cloud: &Cloud, path: &Path) -> PathBuf {
+    let mut bytes = Vec::new();
+    let options = WriteOptions {
+        unit: Some(Unit::Centimeter),
+        ..WriteOptions::default()
+    };
+    write(&mut bytes, cloud, &options).expect("written");
+    std::fs::write(path, bytes).expect("written");
+    path.to_owned()
+}
+
+/// The points that the bundled pepper's labels call its peduncle.
+pub fn labeled() -> PointSet {
+    let cloud = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
+    let peduncle = Peduncle::by_label(&cloud).expect("labeled");
+    peduncle.in_cloud.into_iter().collect()
 }

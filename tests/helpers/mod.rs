@@ -10,3 +10,4 @@ pub mod driving;
 pub mod in_window;
 pub mod peppers;
 pub mod ply_text;
+pub mod store;

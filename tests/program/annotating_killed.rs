@@ -13,7 +13,12 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tempfile::TempDir;
 
-const KILLS: usize = 200;
+/// How often the program is killed: `AXISCOPE_KILLS`, or 200.
+fn kills() -> usize {
+    let asked = std::env::var("AXISCOPE_KILLS").ok();
+    asked.and_then(|kills| kills.parse().ok()).unwrap_or(200)
+}
+
 /// More than the program manages before it is killed.
 const LINES: usize = 300;
 
@@ -123,7 +128,7 @@ fn two_hundred_kills_lose_nothing_that_was_shown_as_saved() {
     };
     let mut random = ChaCha8Rng::seed_from_u64(20);
     let (mut known, mut fresh, mut broken_off) = (Vec::<Deed>::new(), 0, 0);
-    for round in 0..KILLS {
+    for round in 0..kills() {
         let mut model = Model::after(&known);
         let mut deeds = Vec::new();
         for _ in 0..LINES {
@@ -181,7 +186,7 @@ fn two_hundred_kills_lose_nothing_that_was_shown_as_saved() {
             .max(fresh);
     }
     // Else the kills came before the program had begun.
-    assert!(broken_off > KILLS / 4, "only {broken_off} runs got to work");
+    assert!(broken_off > kills() / 4, "only {broken_off} runs got to work");
     let copies = std::fs::read_dir(folder.path()).unwrap().count();
     assert!(
         copies <= 4,

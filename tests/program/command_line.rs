@@ -17,6 +17,7 @@ fn the_json_has_the_fields_that_others_rely_on() {
         "best",
         "center",
         "cloud",
+        "error_parts",
         "params",
         "peduncle_disagreement_deg",
         "planes",

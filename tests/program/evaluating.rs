@@ -25,7 +25,11 @@ fn evaluate(set: &Path, out: &Path, options: &str) -> command_line::Ran {
 
 /// The rows of results.csv, each a map from column to text.
 fn rows(out: &Path) -> Vec<std::collections::HashMap<String, String>> {
-    let mut reader = csv::Reader::from_path(out.join("results.csv")).unwrap();
+    rows_of(out.join("results.csv"))
+}
+
+fn rows_of(table: std::path::PathBuf) -> Vec<std::collections::HashMap<String, String>> {
+    let mut reader = csv::Reader::from_path(table).unwrap();
     reader.deserialize().map(Result::unwrap).collect()
 }
 
@@ -153,7 +157,7 @@ fn a_resumed_run_and_shards_give_the_unbroken_run_s_bytes() {
     for shard in 1..=2 {
         let out = format!("shard{shard}");
         evaluate(&set, &path(&out), &format!("--voxel-cm 0.3 --shard {shard}/2"));
-        let text = String::from_utf8(read(&out, "results.csv")).unwrap();
+        let text = String::from_utf8(read(&out, &format!("results-{shard}-of-2.csv"))).unwrap();
         joined.extend(text.lines().skip(1).map(str::to_owned));
     }
     joined.sort();
@@ -175,6 +179,13 @@ fn shards_that_run_at_once_into_one_folder_are_joined_by_resuming() {
         }
     });
     assert_eq!(stored_rows(&path("shared")).1.len(), 3);
+    let of_shard = |shard| rows_of(path("shared").join(format!("results-{shard}-of-3.csv")));
+    let joined: Vec<_> = (1..=3).flat_map(of_shard).collect();
+    assert_eq!(joined, rows(&path("whole")), "no shard loses another's rows");
+    assert!(
+        !path("shared").join("results.csv").exists(),
+        "nothing passes for the whole"
+    );
     evaluate(&set, &path("shared"), "--voxel-cm 0.3 --resume");
     assert_eq!(
         stored_rows(&path("shared")).1.len(),

@@ -147,7 +147,7 @@ fn resumed_runs_and_shards_give_the_unbroken_run_s_rows_with_and_without_the_ped
         for shard in 1..=4 {
             let out = format!("shard{shard}");
             evaluate(&path(&out), &format!("{options} --shard {shard}/4"));
-            let text = String::from_utf8(read(&out, "results.csv")).unwrap();
+            let text = String::from_utf8(read(&out, &format!("results-{shard}-of-4.csv"))).unwrap();
             joined.extend(text.lines().skip(1).map(str::to_owned));
         }
         joined.sort();

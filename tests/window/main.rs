@@ -11,4 +11,5 @@ mod panels_settings;
 mod peduncle;
 mod real_window;
 mod rendering;
+mod simulator;
 mod true_axes;

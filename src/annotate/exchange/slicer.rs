@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::annotate::{Ends, EndsError};
 use crate::geometry::{Extent, Unit};
+use crate::text::one_line;
 
 /// The frame of Slicer in which the cloud was loaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -127,7 +128,8 @@ struct Point {
 /// Returns an error if the file is not a markup file or has no line, and if a line does not have two points, or is in
 /// another unit or frame than Slicer's.
 pub fn read_lines(bytes: &[u8]) -> Result<Vec<SlicerLine>, SlicerError> {
-    let file: File = serde_json::from_slice(bytes).map_err(|e| SlicerError::Malformed(e.to_string()))?;
+    let file: File =
+        serde_json::from_slice(bytes).map_err(|e| SlicerError::Malformed(one_line(&e.to_string())))?;
     let lines = file.markups.into_iter().filter(|markup| markup.kind == "Line");
     let lines = lines.map(line).collect::<Result<Vec<_>, _>>()?;
     if lines.is_empty() {

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::annotate::{Annotation, Confidence, Ends, Judgment, Method, Role};
 use crate::geometry::Unit;
+use crate::text::{from_spreadsheet_field, spreadsheet_field};
 
 /// The reason why a table cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -106,9 +107,9 @@ pub fn write_table<'a>(
         let blossom = ends.map(Ends::blossom_end);
         let judgment = &annotation.judgment;
         table.serialize(Fields {
-            file: file.into(),
+            file: spreadsheet_field(file).into(),
             sha256: Some(annotation.cloud.sha256.clone()),
-            annotator: annotation.annotator.clone(),
+            annotator: spreadsheet_field(&annotation.annotator).into(),
             role: Some(annotation.role),
             peduncle_base_x: base.map(|p| p.x),
             peduncle_base_y: base.map(|p| p.y),
@@ -120,7 +121,7 @@ pub fn write_table<'a>(
             cannot_tell: Some(ends.is_none()),
             method: Some(judgment.method),
             confidence: judgment.confidence.map(Confidence::value),
-            note: Some(judgment.note.clone()),
+            note: Some(spreadsheet_field(&judgment.note).into()),
             blind: Some(judgment.blind),
             created: Some(annotation.created.clone()),
             modified: Some(annotation.modified.clone()),
@@ -169,16 +170,16 @@ fn imported(fields: Fields) -> Result<ImportedRow, String> {
         Some(value) => Some(Confidence::new(value).ok_or("its confidence is not from 0 to 1")?),
     };
     Ok(ImportedRow {
-        file: fields.file,
+        file: from_spreadsheet_field(&fields.file).into(),
         sha256: fields.sha256.filter(|hash| !hash.is_empty()),
-        annotator: fields.annotator,
+        annotator: from_spreadsheet_field(&fields.annotator).into(),
         role: fields.role.unwrap_or(Role::Annotator),
         unit: fields.unit,
         judgment: Judgment {
             ends,
             method: fields.method.unwrap_or(Method::Imported),
             confidence,
-            note: fields.note.unwrap_or_default(),
+            note: from_spreadsheet_field(&fields.note.unwrap_or_default()).into(),
             blind: fields.blind.unwrap_or(false),
         },
     })

@@ -11,6 +11,7 @@ use crate::app::command::Command;
 use crate::app::command_line;
 use crate::app::context::Context;
 use crate::app::state::PlaneChoice;
+use crate::files::write_whole;
 use crate::geometry::Unit;
 use crate::method::{Candidate, CenterMethod, Params, Preset};
 use crate::view::{PictureSettings, ViewPreset, encode_picture};
@@ -30,6 +31,11 @@ impl Inspector {
             Command::Resume => self.asked = None,
             Command::Set { request, gesture } => cx.set_request(*request, gesture),
             Command::UsePreset(preset) => use_preset(cx, preset),
+            Command::LookFromHere => {
+                let mut request = state.settings.request.clone();
+                request.params.viewpoint = state.camera.eye_in_world;
+                cx.set_request(request, None);
+            }
             Command::MoveCenter(center) => {
                 let mut request = state.settings.request.clone();
                 request.params.center = CenterMethod::Given(center);
@@ -88,6 +94,9 @@ impl Inspector {
             | Command::TrueAxes(_)
             | Command::Scale(_)
             | Command::Dismiss(_)
+            | Command::Simulate(_)
+            | Command::ScanFromHere
+            | Command::SaveCloud(_)
             | Command::Say { .. } => {}
         }
     }
@@ -107,7 +116,7 @@ impl Inspector {
         self.images.submit(move |_| {
             let image = image::draw(&state, &look, size_px)?;
             let png = encode_picture(&image, &settings).map_err(|e| e.to_string())?;
-            std::fs::write(&path, png).map_err(|e| format!("{}: {e}.", path.display()))?;
+            write_whole(&path, &png).map_err(|failed| format!("{failed}."))?;
             Ok(format!("Saved {}.", path.display()))
         });
     }

@@ -1,7 +1,7 @@
 //! The view as a picture of any size.
 
 use super::look::Look;
-use super::stages::Source;
+use crate::app::source::Source;
 use crate::app::state::State;
 use crate::render::{Image, Viewport};
 use crate::view::{Page, PageFacts};

@@ -1,6 +1,6 @@
 //! The input of an analysis.
 
-use super::stages::Source;
+use crate::app::source::Source;
 use crate::fruit::Request;
 
 /// Everything that an analysis of the current cloud depends on.

@@ -18,6 +18,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use glam::DVec2;
 
 use super::workers::{Lane, Pool};
+use crate::app::source::Source;
 use crate::fruit::Fruit;
 use crate::geometry::Extent;
 use crate::method::PlaneDetail;
@@ -26,7 +27,7 @@ use crate::view::ShownPoints;
 use details::Details;
 use key::AnalysisKey;
 use look::{Look, LookRequest};
-use stages::{AnalyzeError, AnalyzedFruit, FruitStages, Source};
+use stages::{AnalyzeError, AnalyzedFruit, FruitStages};
 
 /// A cloud that has been read and is still to be analyzed.
 type Arrival = (Source, Arc<Fruit>, Arc<ShownPoints>);

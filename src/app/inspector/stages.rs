@@ -1,52 +1,13 @@
 //! The cloud that is looked at, from its source to its analysis and the points that are shown.
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::app::samples::Sample;
-use crate::fruit::{
-    CloudFile, Fruit, FruitError, PeduncleChoice, ReadError, ReadErrorKind, Request, parse_cloud,
-    read_cloud_watched,
-};
+use crate::app::source::{Content, Source};
+use crate::fruit::{Fruit, FruitError, PeduncleChoice, ReadErrorKind, Request};
 use crate::geometry::{Cloud, Unit};
 use crate::method::{Analysis, AnalysisError, Observe, Stages, Surface};
 use crate::parallel::Watch;
 use crate::view::ShownPoints;
-
-/// The source of a cloud.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum Source {
-    /// A file on disk.
-    File(PathBuf),
-    /// A sample that the program brings along.
-    Bundled(Sample),
-}
-
-impl Source {
-    /// Its path, or the name of the sample.
-    pub fn path(&self) -> &Path {
-        match self {
-            Self::File(path) => path,
-            Self::Bundled(sample) => Path::new(sample.path()),
-        }
-    }
-
-    /// Its last part, for lists and titles.
-    pub fn name(&self) -> String {
-        let path = self.path();
-        path.file_name()
-            .unwrap_or(path.as_os_str())
-            .to_string_lossy()
-            .into_owned()
-    }
-
-    fn read(&self, watch: &dyn Watch) -> Result<CloudFile, ReadError> {
-        match self {
-            Self::File(path) => read_cloud_watched(path, watch),
-            Self::Bundled(sample) => parse_cloud(sample.path(), sample.bytes()),
-        }
-    }
-}
 
 #[derive(Debug, Clone, PartialEq)]
 struct FruitKey {
@@ -62,7 +23,7 @@ const LARGE: usize = 100_000;
 /// kept until something that it depends on changes. A copy shares everything.
 #[derive(Debug, Clone, Default)]
 pub struct FruitStages {
-    file: Option<(Source, Arc<CloudFile>)>,
+    content: Option<(Source, Content)>,
     fruit: Option<(FruitKey, Arc<Fruit>)>,
     /// A fruit's cloud without the peduncle's points.
     body: Option<(Arc<Fruit>, Cloud)>,
@@ -89,6 +50,8 @@ pub struct AnalyzedFruit {
     pub shown: Arc<ShownPoints>,
     /// Its analysis.
     pub analysis: Arc<Analysis>,
+    /// The analysis with the simulator's center given, if the truth tells it.
+    pub at_true_center: Option<Arc<Analysis>>,
 }
 
 /// Why there is no analysis.
@@ -123,10 +86,16 @@ impl FruitStages {
             }
         };
         let stages = self.stages.as_ref().filter(is_kept)?;
-        let analysis = stages.analyze_kept(&request.params(&fruit))?;
+        let params = request.params(&fruit);
+        let analysis = stages.analyze_kept(&params)?;
+        let at_true_center = match &fruit.truth {
+            Some(truth) => Some(Arc::new(stages.analyze_kept(&params.with_center(truth.center))?)),
+            None => None,
+        };
         let shown = kept(self.shown.as_ref(), &ShownKey::new(request, &analysis))?;
         Some(AnalyzedFruit {
             analysis: Arc::new(analysis),
+            at_true_center,
             fruit,
             shown,
         })
@@ -175,24 +144,46 @@ impl FruitStages {
             fruit,
             shown,
             analysis,
+            at_true_center: None,
         })
+    }
+
+    /// Adds the analysis with the true center given, where the simulator's truth tells it, to one that
+    /// [`FruitStages::analyze`] has just made.
+    ///
+    /// # Errors
+    /// Returns an error if the work is cancelled.
+    pub fn with_true_center(
+        &mut self,
+        mut analyzed: AnalyzedFruit,
+        observe: &dyn Observe,
+    ) -> Result<AnalyzedFruit, AnalyzeError> {
+        if let (Some(truth), Some(stages)) = (&analyzed.fruit.truth, &mut self.stages) {
+            let params = analyzed.analysis.params.with_center(truth.center);
+            analyzed.at_true_center = match stages.analyze(&params, observe) {
+                Ok(analysis) => Some(Arc::new(analysis)),
+                Err(error) if error.is_cancelled() => return Err(AnalyzeError::Cancelled),
+                Err(_) => None,
+            };
+        }
+        Ok(analyzed)
     }
 
     fn fruit(&mut self, key: FruitKey, watch: &dyn Watch) -> Result<Arc<Fruit>, AnalyzeError> {
         if let Some(fruit) = kept(self.fruit.as_ref(), &key) {
             return Ok(fruit);
         }
-        let file = match kept(self.file.as_ref(), &key.source) {
-            Some(file) => file,
-            None => Arc::new(key.source.read(watch).map_err(|error| match error.kind {
+        let content = match kept(self.content.as_ref(), &key.source) {
+            Some(content) => content,
+            None => key.source.read(watch).map_err(|error| match error.kind {
                 ReadErrorKind::Cancelled => AnalyzeError::Cancelled,
                 _ => AnalyzeError::Fruit(error.into()),
-            })?),
+            })?,
         };
-        self.file = Some((key.source.clone(), file.clone()));
-        let mut fruit = Fruit::from_file_lenient(&file, key.unit, &key.peduncle);
-        if let Source::Bundled(sample) = key.source {
-            fruit = fruit.with_truth(key.source.path(), sample.truth());
+        self.content = Some((key.source.clone(), content.clone()));
+        let mut fruit = Fruit::from_file_lenient(&content.file, key.unit, &key.peduncle);
+        if let Some(truth) = &content.truth {
+            fruit = fruit.with_truth(key.source.path(), truth);
         }
         let fruit = Arc::new(fruit);
         self.fruit = Some((key, fruit.clone()));

@@ -6,13 +6,15 @@ use std::time::Duration;
 use super::apply::{choice_of, step};
 use super::look::{Look, LookRequest, look};
 use super::navigate::{default_camera, framed_camera};
-use super::stages::{AnalyzeError, AnalyzedFruit, FruitStages, Source};
+use super::stages::{AnalyzeError, AnalyzedFruit, FruitStages};
 use super::{Inspector, Pick};
 use crate::app::context::Context;
+use crate::app::source::Source;
 use crate::app::state::{PlaneChoice, State};
 use crate::app::workers::{Crashed, PATIENCE};
 use crate::evaluate::collect_references;
 use crate::fruit::Fruit;
+use crate::method::AnalysisError;
 use crate::parallel::Cancelled;
 use crate::text::sentence;
 use crate::view::pick_point;
@@ -55,6 +57,11 @@ impl Inspector {
     /// Sets the camera anew as soon as another cloud is there.
     pub(in crate::app) fn turn_to_cloud(&mut self) {
         self.needs_framing = true;
+    }
+
+    /// Frames the next cloud as the first one is: what was seen of the last has nothing to do with it.
+    pub(in crate::app) fn forget_framing(&mut self) {
+        self.framed = None;
     }
 
     /// No cloud is open any more.
@@ -106,7 +113,8 @@ impl Inspector {
                 let _ = arrivals.send((wanted.source.clone(), fruit.clone(), shown));
                 repaint();
             };
-            let result = stages.analyze(&wanted.source, &wanted.request, watch, &arrived);
+            let analyzed = stages.analyze(&wanted.source, &wanted.request, watch, &arrived);
+            let result = analyzed.and_then(|analyzed| stages.with_true_center(analyzed, watch));
             (stages, result)
         });
         if let Some(result) = self.analyses.take_within(PATIENCE) {
@@ -137,7 +145,10 @@ impl Inspector {
             Ok((stages, result)) => {
                 let before = std::mem::replace(&mut cx.stages, stages);
                 cx.pool.discard(Some(before));
-                self.accept(result, cx);
+                // A cloud that was left meanwhile is not shown, nor its error said, in the place of the current one.
+                if self.asked.as_ref().map(|key| &key.source) == cx.state.source() {
+                    self.accept(result, cx);
+                }
             }
             Err(Crashed(fault)) => {
                 cx.say(
@@ -156,6 +167,7 @@ impl Inspector {
                 set_problem(&mut cx.state, Some(sentence(&error.to_string())));
                 cx.state.warnings.clone_from(&fruit.warnings);
                 self.forget_analysis(cx);
+                cx.state.is_viewpoint_inside = matches!(error, AnalysisError::ViewpointInsideCloud { .. });
                 cx.state.set_subject(&fruit, &shown);
                 let name = cx.state.source().map(Source::name).unwrap_or_default();
                 cx.state.unanalyzed = Some((shown, Some(sentence(&format!("{name}: {error}")))));
@@ -167,7 +179,11 @@ impl Inspector {
                 // It begins with a file's name, whose letters stay as they are.
                 cx.say(true, format!("{error}."));
             }
-            Err(AnalyzeError::Cancelled) => cx.state.was_cancelled = true,
+            // The cloud before may still be shown, and keeps its view.
+            Err(AnalyzeError::Cancelled) => {
+                cx.state.was_cancelled = true;
+                return;
+            }
         }
         self.frame_if_new(&mut cx.state);
     }
@@ -196,6 +212,7 @@ impl Inspector {
         (state.references, state.warnings) = (references, warnings);
         cx.pool.discard(state.walked.replace(Arc::new(walked)));
         cx.pool.discard(state.unanalyzed.take());
+        state.is_viewpoint_inside = false;
         state.is_stale = false;
         state.take_current_row();
     }
@@ -205,6 +222,7 @@ impl Inspector {
         self.details.clear();
         cx.pool.discard(state.walked.take());
         cx.pool.discard(state.unanalyzed.take());
+        state.is_viewpoint_inside = false;
         state.references.clear();
         state.is_stale = false;
         state.previewed = None;

@@ -6,6 +6,7 @@ use super::Many;
 use crate::app::context::Context;
 use crate::app::state::State;
 use crate::evaluate::{Row, Sweep, TruthChoice, WorstPicture, result_files};
+use crate::files::write_all;
 use crate::fruit::Request;
 
 /// The number of clouds with a picture in the report.
@@ -124,10 +125,8 @@ fn save(task: &Task) -> Result<String, String> {
     )
     .map_err(|error| format!("The results could not be made: {error}."))?;
     let folder = new_folder(&task.into).map_err(|error| format!("{}: {error}.", task.into.display()))?;
-    for (name, bytes) in files {
-        let path = folder.join(name);
-        std::fs::write(&path, bytes).map_err(|error| format!("{}: {error}.", path.display()))?;
-    }
+    let files = files.into_iter().map(|(name, bytes)| (folder.join(name), bytes));
+    write_all(&files.collect::<Vec<_>>()).map_err(|failed| format!("{failed}."))?;
     let lack = lack.map(|lack| format!(" {lack}")).unwrap_or_default();
     Ok(format!(
         "Saved the results of {} clouds in {}.{lack}",

@@ -11,7 +11,7 @@ use super::background::{BatchResult, BatchTask, evaluate_batch};
 use super::cloud_rows::{TableRow, ordered};
 use super::state::{EvaluationProgress, ManyState};
 use crate::app::context::Context;
-use crate::app::inspector::stages::Source;
+use crate::app::source::Source;
 use crate::app::state::State;
 use crate::evaluate::{Outcome, RowStore, StoreKind, StoreProblem};
 
@@ -75,7 +75,7 @@ impl Many {
             .map(|(place, entry)| {
                 let path = match &entry.source {
                     Source::File(path) => Some(path.clone()),
-                    Source::Bundled(_) => None,
+                    _ => None,
                 };
                 let name = entry.source.name();
                 match known.remove(&(name.clone(), path.clone())) {
@@ -263,6 +263,7 @@ impl State {
             &self.many.rows[place].name,
             &walked.fruit,
             &walked.analysis,
+            walked.at_true_center.as_deref(),
             &self.references,
             &self.warnings,
         );

@@ -12,7 +12,6 @@ use super::hues::Hues;
 use super::marks::{Marking, Wanted, mark};
 use super::state::{Question, Saved};
 use crate::app::context::Context;
-use crate::app::inspector::stages::Source;
 use crate::app::state::State;
 use crate::app::workers::{Crashed, PATIENCE};
 use crate::fruit::{PeduncleChoice, companion_path};
@@ -96,10 +95,10 @@ impl PeduncleTools {
             );
             return;
         }
-        if to.is_none() && matches!(cx.state.source(), Some(Source::Bundled(_))) {
+        if to.is_none() && cx.state.source().is_some_and(|source| !source.is_file()) {
             cx.say(
                 false,
-                "A sample has no folder of its own: save its peduncle under a name of yours.",
+                "This cloud has no folder of its own: save its peduncle under a name of yours.",
             );
             return;
         }

@@ -10,7 +10,6 @@ use super::stores::Change;
 use crate::annotate::{Annotation, Ends, Judgment, Method, Role, mean_axis};
 use crate::app::command::Command;
 use crate::app::context::Context;
-use crate::app::inspector::stages::Source;
 use crate::app::tool::Tool;
 use crate::evaluate::start_axis;
 use crate::render::Projection;
@@ -253,17 +252,17 @@ impl TrueAxes {
 }
 
 fn edit_mode(cx: &mut Context, on: bool) {
-    let is_sample = matches!(cx.state.source(), Some(Source::Bundled(_)));
+    let is_in_no_folder = cx.state.source().is_some_and(|source| !source.is_file());
     let axes = &mut cx.state.true_axes;
     axes.drop_draft();
     axes.landing = None;
     if !on {
         axes.is_editing = false;
         axes.role = Role::Annotator;
-    } else if is_sample {
+    } else if is_in_no_folder {
         cx.say(
             false,
-            "A sample lies in no folder in which its axis could be kept: open a cloud from a file.",
+            "This cloud lies in no folder in which its axis could be kept: open one from a file.",
         );
     } else if axes.author().is_err() {
         axes.asks_name = true;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::state::Subject;
 use crate::annotate::CloudId;
-use crate::app::inspector::stages::Source;
+use crate::app::source::Source;
 use crate::app::state::State;
 use crate::fruit::Fruit;
 use crate::geometry::Extent;

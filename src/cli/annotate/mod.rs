@@ -3,7 +3,7 @@
 mod change;
 mod script;
 
-use std::io::{BufRead, Write};
+use std::io::{BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -11,11 +11,13 @@ use axiscope::annotate::DiskFiles;
 use axiscope::annotate::exchange::{Placement, SlicerFrame, place, read_lines, write_line};
 use axiscope::annotate::{Annotation, Author, CloudId, Ends, Judgment, Method, Role, Store, StoreError, now};
 use axiscope::evaluate::{Examination, examine, start_axis};
+use axiscope::files::read_at_most;
 use axiscope::fruit::Fruit;
-use axiscope::geometry::Extent;
+use axiscope::geometry::{Extent, Unit};
 use clap::{Args, ValueEnum};
 
 use super::options::AnalysisOptions;
+use super::output::{Printable, say};
 use super::progress::StageClock;
 use super::usage_error;
 use change::Change;
@@ -75,7 +77,7 @@ pub(super) fn run(args: &Annotate) -> anyhow::Result<()> {
     let author = author.map_err(|error| usage_error(&error.to_string()))?;
     let request = args.analysis.request();
     let fruit = Fruit::read(&args.cloud, &request)?;
-    let (mut store, writable) = open(&args.cloud, &fruit, author)?;
+    let (mut store, writable) = open(&args.cloud, &fruit.file.sha256, fruit.unit, author)?;
     let mut out = std::io::stdout().lock();
     if let Some(script) = &args.script {
         follow(args, script, &fruit, &mut store, &mut out)?;
@@ -86,34 +88,40 @@ pub(super) fn run(args: &Annotate) -> anyhow::Result<()> {
     } else if let Some(file) = &args.import {
         import(args, file, &fruit, &mut store)?;
     } else if let Err(error) = writable {
-        eprintln!("Warning: nothing can be saved here: {error}");
+        say!("Warning: nothing can be saved here: {error}");
     }
     if let Some(file) = &args.export {
         let ends = store.current().and_then(Annotation::ends).copied();
         let ends = ends.context("there is no axis to export")?;
         let text = write_line(&line_name(&store), &ends, fruit.unit, args.placement());
-        std::fs::write(file, text).with_context(|| file.display().to_string())?;
+        super::output::write(file, text.as_bytes())?;
     }
     match args.format {
-        Format::Text => write_text(&mut out, &store)?,
+        Format::Text => write_text(&mut Printable::new(out), &store)?,
         Format::Json => writeln!(out, "{}", serde_json::to_string_pretty(&store.current())?)?,
     }
     Ok(())
 }
 
+/// The longest line of a script, in bytes: an edit whose note is as long as an axis file can be.
+const LONGEST_LINE: u64 = 2 << 20;
+/// The longest markup file of 3D Slicer that is read, in bytes.
+const LONGEST_IMPORT: u64 = 16 << 20;
+
 /// Opens an annotator's files beside a cloud, and prints the notices about them to standard error.
 pub(super) fn open(
     cloud: &Path,
-    fruit: &Fruit,
+    sha256: &str,
+    unit: Unit,
     author: Author,
 ) -> anyhow::Result<(Store, Result<(), StoreError>)> {
     let id = CloudId {
         file: cloud.file_name().unwrap_or_default().to_string_lossy().into(),
-        sha256: fruit.file.sha256.clone(),
+        sha256: sha256.to_owned(),
     };
-    let (store, writable) = Store::open(Box::new(DiskFiles::default()), cloud, id, fruit.unit, author)?;
+    let (store, writable) = Store::open(Box::new(DiskFiles::default()), cloud, id, unit, author)?;
     for notice in store.notices() {
-        eprintln!("Warning: {notice}");
+        say!("Warning: {notice}");
     }
     Ok((store, writable))
 }
@@ -131,7 +139,7 @@ fn apply(args: &Annotate, change: &Change, fruit: &Fruit, store: &mut Store) -> 
         store.edit(judgment, &now()).map(|()| true)
     };
     for notice in &store.notices()[known..] {
-        eprintln!("Warning: {notice}");
+        say!("Warning: {notice}");
     }
     let what = if change.undo { "undo" } else { "do again" };
     anyhow::ensure!(done?, "there is nothing to {what}");
@@ -170,13 +178,16 @@ fn follow(
     let (mut line, mut refused) = (String::new(), 0);
     loop {
         line.clear();
-        if lines
-            .read_line(&mut line)
-            .with_context(|| script.display().to_string())?
-            == 0
-        {
+        let read = lines.by_ref().take(LONGEST_LINE + 1).read_line(&mut line);
+        if read.with_context(|| script.display().to_string())? == 0 {
             break;
         }
+        anyhow::ensure!(
+            line.len() as u64 <= LONGEST_LINE,
+            "{}: a line is longer than {} MB, which no edit needs",
+            script.display(),
+            LONGEST_LINE >> 20
+        );
         let done = match script::change_of(&line) {
             Ok(None) => continue,
             Ok(Some(change)) => apply(args, &change, fruit, store),
@@ -184,7 +195,7 @@ fn follow(
         };
         match done {
             Ok(()) => writeln!(out, "saved {}", store.operations())?,
-            Err(error) if error.is::<StoreError>() => writeln!(out, "not saved: {error}")?,
+            Err(error) if is_pending(&error) => writeln!(out, "not saved: {error}")?,
             Err(error) => {
                 refused += 1;
                 writeln!(out, "refused: {error}")?;
@@ -195,6 +206,12 @@ fn follow(
     store.save()?;
     anyhow::ensure!(refused == 0, "{refused} lines were refused");
     Ok(())
+}
+
+/// Whether an edit was made that could not be saved, rather than refused.
+fn is_pending(error: &anyhow::Error) -> bool {
+    let error = error.downcast_ref();
+    error.is_some_and(|error| !matches!(error, StoreError::TooLong { .. }))
 }
 
 impl Annotate {
@@ -208,7 +225,7 @@ impl Annotate {
 
 fn import(args: &Annotate, file: &Path, fruit: &Fruit, store: &mut Store) -> anyhow::Result<()> {
     let named = || file.display().to_string();
-    let bytes = std::fs::read(file).with_context(named)?;
+    let bytes = read_at_most(file, LONGEST_IMPORT).with_context(named)?;
     let lines = read_lines(&bytes).with_context(named)?;
     let mut fitting = lines
         .iter()

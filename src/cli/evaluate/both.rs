@@ -1,5 +1,7 @@
 //! `--both`: the paper's two experiments, with the peduncle and without it.
 
+use std::io::Write;
+
 use super::Evaluate;
 
 /// Evaluates the folder twice, into two folders.
@@ -9,9 +11,9 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
         one.both = false;
         one.analysis.without_peduncle = without_peduncle;
         one.out = args.out.join(name);
-        println!("{name}:");
+        writeln!(std::io::stdout(), "{name}:")?;
         super::run(&one)?;
-        println!();
+        writeln!(std::io::stdout())?;
     }
     Ok(())
 }

@@ -9,13 +9,15 @@ use std::str::FromStr;
 
 use anyhow::Context;
 use axiscope::evaluate::{
-    Reuse, Row, RowStore, Runner, StoreKind, StoredRow, Summary, Sweep, TruthChoice, add_tags,
+    MeanParts, Reuse, Row, RowStore, Runner, StoreKind, StoredRow, Summary, Sweep, TruthChoice, add_tags,
     annotation_files, read_tags, result_files,
 };
+use axiscope::files::write_all;
 use axiscope::parallel::{Watch, map_pieces};
 use clap::Args;
 
 use super::options::AnalysisOptions;
+use super::output::{Printable, say};
 use super::progress::CountingBar;
 use sweep::SweepOption;
 
@@ -35,7 +37,8 @@ pub(super) struct Evaluate {
     /// Also map the mean error over ranges of settings: u=FROM..TO[:STEP], tau=FROM..TO[:STEP], or both
     #[arg(long, value_name = "RANGE", num_args = 1..=2)]
     sweep: Vec<SweepOption>,
-    /// Evaluate only part I of N of the folder, for a job array; the parts' tables can be concatenated
+    /// Evaluate only part I of N of the folder, for a job array; the parts' tables, results-I-of-N.csv and so on, can be
+    /// concatenated
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
     /// Reuse the rows of an earlier run into the same folder whose cloud and settings are unchanged
@@ -55,6 +58,17 @@ struct Shard {
     /// The number of the part, from 1.
     index: usize,
     of: usize,
+}
+
+impl Shard {
+    /// Returns the name of this part's file, so that parts share a folder: `results.csv` becomes `results-2-of-5.csv`.
+    fn named(self, name: &str) -> String {
+        let Self { index, of } = self;
+        match name.rsplit_once('.') {
+            Some((stem, ending)) => format!("{stem}-{index}-of-{of}.{ending}"),
+            None => format!("{name}-{index}-of-{of}"),
+        }
+    }
 }
 
 impl FromStr for Shard {
@@ -96,13 +110,13 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
     let stored = evaluate_all(&args.folder, &clouds, &runner, &bar)?;
     bar.finish();
     if let Some(problem) = store.take_problem() {
-        eprintln!("Warning: a later --resume will not find every row: {problem}");
+        say!("Warning: a later --resume will not find every row: {problem}");
     }
 
     let mut rows: Vec<Row> = stored.iter().map(|s| s.outcome.against(args.truth)).collect();
     match read_tags(&args.folder) {
         Ok(tags) => add_tags(&mut rows, &tags),
-        Err(problem) => eprintln!("Warning: {problem}"),
+        Err(problem) => say!("Warning: {problem}"),
     }
     let summary = Summary::of(&rows);
     let map = sweep.map(|settings| {
@@ -117,19 +131,22 @@ pub(super) fn run(args: &Evaluate) -> anyhow::Result<()> {
         let (pictures, problem) =
             axiscope::evaluate::pictures_of_worst(&args.folder, &rows, &request, args.pictures);
         if let Some(problem) = problem {
-            eprintln!("Warning: {problem}");
+            say!("Warning: {problem}");
         }
         pictures
     };
     #[cfg(not(feature = "window"))]
     let pictures = Vec::new();
-    for (name, bytes) in result_files(&args.folder, &request, &rows, map.as_ref(), &pictures)? {
-        let path = args.out.join(name);
-        std::fs::write(&path, bytes).with_context(|| path.display().to_string())?;
-    }
-    write_summary(&mut std::io::stdout().lock(), &summary)?;
-    eprintln!(
-        "Wrote results, summary, figures and report.html to {}.",
+    let files = result_files(&args.folder, &request, &rows, map.as_ref(), &pictures)?;
+    let named = |name: String| args.shard.map_or(name.clone(), |shard| shard.named(&name));
+    let files = files
+        .into_iter()
+        .map(|(name, bytes)| (args.out.join(named(name)), bytes));
+    write_all(&files.collect::<Vec<_>>())?;
+    write_summary(&mut Printable::stdout(), &summary)?;
+    say!(
+        "Wrote results, summary, figures and {} to {}.",
+        named("report.html".into()),
         args.out.display()
     );
     Ok(())
@@ -189,6 +206,27 @@ fn write_summary(out: &mut impl Write, summary: &Summary) -> std::io::Result<()>
         .map(percent)
         .join(", "),
     )?;
+    if let Some(parts) = &summary.error_parts {
+        let MeanParts {
+            clouds,
+            error_deg,
+            lean_part_deg: lean,
+            grid_part_deg: grid,
+            choice_part_deg: choice,
+            ..
+        } = parts;
+        let text = format!(
+            "{error_deg:.2}° = {lean:.2}° lean + {grid:.2}° grid + {choice:.2}° choice of the plane (means of {clouds})"
+        );
+        row("Error's parts", text)?;
+        if let Some(given) = &parts.true_center {
+            let text = format!(
+                "{:.2}° with the true center given, which is {:.2} cm from the computed one",
+                given.error_true_center_deg, given.center_distance_cm
+            );
+            row("", text)?;
+        }
+    }
     for (reason, count) in &summary.failures {
         row("No error", format!("{count} × {reason}"))?;
     }

@@ -4,17 +4,19 @@ mod camera;
 mod pepper;
 mod scan;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use axiscope::files;
+use axiscope::fruit::simulated_files;
 use axiscope::geometry::{Cloud, Unit};
-use axiscope::ply::{self, Encoding, WriteOptions};
+use axiscope::ply::Encoding;
 use axiscope::simulate::{EllipsoidSettings, PepperSettings, SimulateError, Simulated, Truth, seeds};
 use clap::{Args, Subcommand};
 use glam::DVec3;
 
 use super::options::{Depths, depths, number, pair, position};
+use super::output::{is_standard_output, say};
 use super::{progress, usage_error};
 use pepper::Pepper;
 use scan::Scan;
@@ -39,7 +41,7 @@ enum Shape {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 struct Output {
-    /// The PLY file to write, or a folder for several; the truth goes beside it as NAME.truth.json
+    /// The PLY file to write, or a folder for several, or - for standard output; the truth goes beside it as NAME.truth.json
     /// [default: pepper.ply or ellipsoid.ply; for several, the folder peppers or ellipsoids]
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
@@ -196,13 +198,20 @@ fn write_all<S>(
         };
         let made = simulate(settings)?;
         write_cloud(&path, &made, output)?;
-        let truth = if made.truth.is_some() {
-            "and its truth beside it"
+        let (name, points) = (path.display(), made.cloud.len());
+        if !has_name(&path) {
+            say!("Wrote {points} points; a truth is written only beside a file.");
+        } else if made.truth.is_some() {
+            say!("Wrote {name} ({points} points) and its truth beside it.");
         } else {
-            "without a truth, since its axis is not known"
-        };
-        eprintln!("Wrote {} ({} points) {truth}.", path.display(), made.cloud.len());
+            say!("Wrote {name} ({points} points) without a truth, since its axis is not known.");
+        }
         return Ok(());
+    }
+    if output.out.as_deref().is_some_and(is_standard_output) {
+        return Err(usage_error(
+            "several clouds go into a folder, not to standard output",
+        ));
     }
     let folder = output.out.clone().unwrap_or_else(|| format!("{shape}s").into());
     if folder.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply")) {
@@ -224,49 +233,29 @@ fn write_all<S>(
     }
     bar.finish_and_clear();
     let with = if truths > 0 { "with their truths " } else { "" };
-    eprintln!("Wrote {} clouds {with}to {}.", jobs.len(), folder.display());
+    say!("Wrote {} clouds {with}to {}.", jobs.len(), folder.display());
     Ok(())
 }
 
-/// Writes `NAME.ply` and `NAME.truth.json`, each whole or not at all.
+/// Writes `NAME.ply` and `NAME.truth.json`, both whole or not at all; to standard output or a device only the cloud.
 fn write_cloud(path: &Path, made: &Made, output: &Output) -> anyhow::Result<()> {
+    let truth = made.truth.as_ref();
+    let written = simulated_files(path, &made.cloud, truth, made.seed, made.unit, output.encoding)?;
+    if !has_name(path) {
+        return super::output::write(path, &written[0].1);
+    }
     let truth_path = path.with_extension("truth.json");
-    if made.truth.is_none() && truth_path.exists() {
+    if truth.is_none() && truth_path.exists() {
         anyhow::bail!(
             "{}: this would be taken for the truth about the new cloud, which has none; remove it or write elsewhere",
             truth_path.display()
         );
     }
-    let comments = [format!(
-        "simulated by axiscope {}, seed {}",
-        env!("CARGO_PKG_VERSION"),
-        made.seed
-    )];
-    let mut bytes = Vec::new();
-    let options = WriteOptions {
-        unit: Some(made.unit),
-        comments: &comments,
-        encoding: output.encoding,
-        ..WriteOptions::default()
-    };
-    ply::write(&mut bytes, &made.cloud, &options)?;
-    write_whole(path, &bytes)?;
-    let Some(truth) = &made.truth else {
-        return Ok(());
-    };
-    let json = serde_json::to_string_pretty(truth)? + "\n";
-    write_whole(&truth_path, json.as_bytes())
+    Ok(files::write_all(&written)?)
 }
 
-/// Writes a file under a temporary name and then renames it, so that no reader finds half of it.
-fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let write = || -> std::io::Result<()> {
-        let mut name = path.file_name().unwrap_or_default().to_os_string();
-        name.push(".part");
-        let part = path.with_file_name(name);
-        let mut file = std::fs::File::create(&part)?;
-        file.write_all(bytes)?;
-        std::fs::rename(&part, path)
-    };
-    write().with_context(|| path.display().to_string())
+/// Whether a path names a regular file, there or yet to be written, so that another can stand beside it: not standard
+/// output, a device or a pipe.
+fn has_name(path: &Path) -> bool {
+    !is_standard_output(path) && files::is_replaceable(path)
 }

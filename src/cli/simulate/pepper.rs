@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use axiscope::files::read_at_most;
 use axiscope::simulate::{FruitColor, PepperSettings, Settings, Truth};
 use clap::Args;
 use glam::DVec3;
@@ -126,10 +127,13 @@ impl Pepper {
     }
 }
 
+/// The longest file of settings, in bytes.
+const LONGEST_SETTINGS: u64 = 1 << 20;
+
 /// The settings of a truth file, or of a file that holds nothing else.
 fn read_settings(path: &Path) -> anyhow::Result<PepperSettings> {
-    let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
-    if let Ok(truth) = serde_json::from_str::<Truth>(&text) {
+    let text = read_at_most(path, LONGEST_SETTINGS).with_context(|| path.display().to_string())?;
+    if let Ok(truth) = serde_json::from_slice::<Truth>(&text) {
         return match truth.settings {
             Settings::Pepper(settings) => Ok(*settings),
             Settings::Ellipsoid(_) | Settings::Mesh(_) => {
@@ -137,5 +141,5 @@ fn read_settings(path: &Path) -> anyhow::Result<PepperSettings> {
             }
         };
     }
-    serde_json::from_str(&text).with_context(|| format!("{}: no settings of a pepper", path.display()))
+    serde_json::from_slice(&text).with_context(|| format!("{}: no settings of a pepper", path.display()))
 }

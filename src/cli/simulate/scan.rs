@@ -12,6 +12,7 @@ use glam::DVec3;
 use super::camera::{CameraOptions, ViewOptions};
 use super::{Made, Output, set, write_all};
 use crate::cli::options::{OrAuto, position, unit_or_auto};
+use crate::cli::output::say;
 
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
@@ -49,7 +50,7 @@ pub(super) struct Scan {
 pub(super) fn run(args: &Scan) -> anyhow::Result<()> {
     let file = read_mesh(&args.mesh, args.unit)?;
     for warning in &file.warnings {
-        eprintln!("Warning: {warning}");
+        say!("Warning: {warning}");
     }
     let settings = args.settings(&file)?;
     let stem = args.mesh.file_stem().unwrap_or_default().to_string_lossy();
@@ -97,11 +98,11 @@ impl Scan {
 fn annotated_axis(file: &MeshFile) -> Option<[DVec3; 2]> {
     let (annotations, warnings) = read_annotations(&AxisFiles::default().of(&file.path), &file.sha256);
     for warning in warnings {
-        eprintln!("Warning: {warning}");
+        say!("Warning: {warning}");
     }
     let adjudicated = annotations.iter().find(|a| a.role == Role::Adjudicator);
     if adjudicated.is_none() && annotations.len() > 1 {
-        eprintln!("Warning: several annotators set an axis, and none is adjudicated: give one by --axis.");
+        say!("Warning: several annotators set an axis, and none is adjudicated: give one by --axis.");
         return None;
     }
     let ends = adjudicated.or(annotations.first()).and_then(Annotation::ends)?;

@@ -127,6 +127,7 @@ fn analyze_pepper(
 /// The filters that § 2.1 names.
 pub(super) fn filters(voxel_cm: f64) -> Filters {
     Filters {
+        keep_strays: false,
         outliers: Some(OutlierFilter {
             neighbors: const { NonZeroUsize::new(OUTLIER_NEIGHBORS).unwrap() },
             std_ratio: OUTLIER_STD,

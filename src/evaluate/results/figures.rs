@@ -49,6 +49,18 @@ pub(super) fn of_rows(rows: &[Row]) -> Vec<(&'static str, Figure)> {
         },
     );
     figures.push(("error_by_distance", distance.into()));
+    let lean = against(
+        "Error against the lean of the true axis",
+        "Lean towards the camera or away from it (°)",
+        |row| row.error_parts.as_ref().map(|parts| parts.lean_deg),
+    );
+    figures.push(("error_by_lean", lean.into()));
+    let coverage = against(
+        "Error against the share of the fruit that was seen",
+        "Coverage (% of the surface)",
+        |row| row.coverage.map(|coverage| 100.0 * coverage),
+    );
+    figures.push(("error_by_coverage", coverage.into()));
     figures
 }
 

@@ -10,6 +10,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
 use crate::evaluate::Row;
+use crate::text::spreadsheet_field;
 
 /// The reason why a table could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -38,8 +39,15 @@ macro_rules! components {
     };
 }
 
+/// A column of the parts of the error.
+macro_rules! parts {
+    ($kind:ident, |$parts:ident| $value:expr) => {
+        |row| Value::$kind(row.error_parts.as_ref().and_then(|$parts| $value))
+    };
+}
+
 /// All columns in order.
-const COLUMNS: [Column; 34] = [
+const COLUMNS: [Column; 45] = [
     ("file", |row| Value::Text(Some(row.file.clone()))),
     ("sha256", |row| Value::Text(row.sha256.clone())),
     ("points", |row| Value::Count(row.points)),
@@ -84,6 +92,35 @@ const COLUMNS: [Column; 34] = [
     ("annotators", |row| Value::Text(Some(row.annotators.clone()))),
     ("tags", |row| Value::Text(Some(row.tags.clone()))),
     ("note", |row| Value::Text(Some(row.note.clone()))),
+    ("coverage", |row| Value::Number(row.coverage)),
+    ("lean_deg", parts!(Number, |parts| Some(parts.lean_deg))),
+    ("lean_part_deg", parts!(Number, |parts| Some(parts.lean_part_deg))),
+    ("grid_part_deg", parts!(Number, |parts| Some(parts.grid_part_deg))),
+    ("choice_part_deg", parts!(Number, |parts| parts.choice_part_deg)),
+    (
+        "nearest_candidate_g",
+        parts!(Count, |parts| Some(parts.nearest_candidate.g)),
+    ),
+    (
+        "nearest_candidate_h",
+        parts!(Count, |parts| Some(parts.nearest_candidate.h)),
+    ),
+    (
+        "nearest_candidate_rank",
+        parts!(Count, |parts| parts.nearest_candidate.rank),
+    ),
+    (
+        "nearest_candidate_error_deg",
+        parts!(Number, |parts| Some(parts.nearest_candidate.error_deg)),
+    ),
+    (
+        "center_distance_cm",
+        parts!(Number, |parts| Some(parts.true_center.as_ref()?.distance_cm)),
+    ),
+    (
+        "error_true_center_deg",
+        parts!(Number, |parts| parts.true_center.as_ref()?.error_deg),
+    ),
 ];
 
 /// Writes the rows as CSV with a header.
@@ -103,7 +140,7 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
     )?;
     for row in rows {
         let field = |(_, value): &Column| match value(row) {
-            Value::Text(text) => text.unwrap_or_default(),
+            Value::Text(text) => spreadsheet_field(&text.unwrap_or_default()).into_owned(),
             Value::Count(count) => count.map(|c| c.to_string()).unwrap_or_default(),
             Value::Number(number) => number.map(|n| n.to_string()).unwrap_or_default(),
         };

@@ -16,6 +16,7 @@ use crate::parallel::{Cancelled, Watch};
 
 pub use random_search::{RandomSearch, distance_deviation, rms_distance};
 pub use sphere::fit_sphere;
+use sphere::fit_sphere_watched;
 
 /// A method to find the fruit center.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -77,7 +78,7 @@ pub fn find_center(points: &[DVec3], method: &CenterMethod, watch: &dyn Watch) -
     match *method {
         CenterMethod::MeanRms(search) => Ok(search.least_rms_distance(points)),
         CenterMethod::Equidistant(search) => Ok(search.least_deviation(points, watch)?),
-        CenterMethod::Sphere => fit_sphere(points)
+        CenterMethod::Sphere => fit_sphere_watched(points, watch)?
             .map(|(center, _)| center)
             .ok_or(CenterError::NoSphere),
         CenterMethod::Given(center) => Ok(center),

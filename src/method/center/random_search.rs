@@ -38,6 +38,9 @@ const TRIAL_POINTS: usize = 512;
 const TRIED_IN_FULL: usize = 20;
 
 impl RandomSearch {
+    /// The largest [`RandomSearch::count`].
+    pub const MOST: usize = 10_000_000;
+
     /// Draws the random points.
     fn points(&self, spread: &Spread) -> Vec<DVec3> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);

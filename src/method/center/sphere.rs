@@ -1,15 +1,41 @@
 //! The sphere that fits points best, by least squares of their distances to its surface.
 
+use std::cell::Cell;
+
 use glam::DVec3;
 use nalgebra::{Matrix4, Vector4};
 
 use crate::geometry::Spread;
+use crate::parallel::{Cancelled, Watch};
 
 /// Computes the center and radius of the sphere with the least sum of squared distances between its
 /// surface and the points, in their unit; `None` if they lie in a plane or are fewer than four.
 ///
 /// The Gauss–Newton method starts from the algebraic fit, which is linear.
 pub fn fit_sphere(points: &[DVec3]) -> Option<(DVec3, f64)> {
+    // Without a watch nothing is called off.
+    fit_sphere_watched(points, &()).ok()?
+}
+
+/// [`fit_sphere`], called off by a watch.
+pub(super) fn fit_sphere_watched(
+    points: &[DVec3],
+    watch: &dyn Watch,
+) -> Result<Option<(DVec3, f64)>, Cancelled> {
+    let is_cancelled = Cell::new(false);
+    let found = fit(points, &|| {
+        is_cancelled.set(watch.is_cancelled());
+        !is_cancelled.get()
+    });
+    if is_cancelled.get() {
+        Err(Cancelled)
+    } else {
+        Ok(found)
+    }
+}
+
+/// Fits the sphere as long as `goes_on` says so; it is asked before each step.
+fn fit(points: &[DVec3], goes_on: &dyn Fn() -> bool) -> Option<(DVec3, f64)> {
     let spread = Spread::of_points(points)?;
     if points.len() < 4 || spread.variances[0].sqrt() <= 1e-6 * spread.variances[2].sqrt() {
         return None;
@@ -20,6 +46,9 @@ pub fn fit_sphere(points: &[DVec3]) -> Option<(DVec3, f64)> {
 
     let (mut center, mut radius) = algebraic_fit(scaled())?;
     for _ in 0..50 {
+        if !goes_on() {
+            return None;
+        }
         let step = gauss_newton_step(scaled(), center, radius)?;
         center += step.truncate();
         radius += step.w;

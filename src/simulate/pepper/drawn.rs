@@ -96,6 +96,11 @@ impl Drawn {
         mesh.moved(self.camera_from_fruit, self.center_cm)
     }
 
+    /// The settings, every one of which is set.
+    pub(super) fn into_settings(self) -> PepperSettings {
+        self.settings
+    }
+
     /// The truth about it.
     pub(super) fn into_truth(self, hidden_by_leaf: Option<f64>) -> Truth {
         let direction = self.camera_from_fruit * DVec3::Y;

@@ -15,6 +15,15 @@ pub use self::color::FruitColor;
 pub use self::settings::PepperSettings;
 
 impl PepperSettings {
+    /// The same settings with everything drawn that was open.
+    ///
+    /// # Errors
+    /// Returns an error if a setting is out of range.
+    pub fn drawn(&self) -> Result<Self, SimulateError> {
+        self.check()?;
+        Ok(Drawn::new(self)?.into_settings())
+    }
+
     /// Draws the settings that are open, builds the fruit, and measures it by the camera.
     ///
     /// The cloud is in centimeters in the camera's frame, with colors and the labels of [`Cloud`]. Of one view it has a

@@ -92,7 +92,7 @@ pub(in crate::ui) fn show(
         paint(&painter, rect, &primitive);
     }
     axis_view.paint(ui, &response, state);
-    notices(ui, rect, state);
+    notices(ui, rect, state, commands);
     peduncle::paint(ui, &response, rect, state);
     answer
 }
@@ -206,7 +206,8 @@ fn cursor_lines(state: &State, pixels_per_point: f32) -> Vec<Line> {
 }
 
 /// Draws notices in the upper left corner while the view does not show the current settings.
-fn notices(ui: &egui::Ui, rect: Rect, state: &State) {
+/// Shows what has to be said about the view in its upper left corner, with the way out where there is one.
+fn notices(ui: &mut egui::Ui, rect: Rect, state: &State, commands: &mut Vec<Command>) {
     let mut lines: Vec<String> = Vec::new();
     if let Some((_, why)) = &state.unanalyzed {
         lines.push(why.clone().unwrap_or_else(|| "Not analyzed yet …".into()));
@@ -253,6 +254,25 @@ fn notices(ui: &egui::Ui, rect: Rect, state: &State) {
         );
         ui.painter().galley(at, galley, color);
         at.y += size.y + 16.0;
+    }
+    if state.is_viewpoint_inside {
+        let look = "Look from here";
+        let tip = "Takes the eye of this view as the viewpoint: the place of a camera that saw these points. For a whole \
+                   scan no place is right for all of them; turn it so that the side you want faces you.";
+        let scan = "Scan from here";
+        let scan_tip = "Makes a cloud of the points that a depth camera in the place of this view would see. The cloud before \
+                        stays in the list.";
+        for (text, tip, command) in [
+            (look, tip, Command::LookFromHere),
+            (scan, scan_tip, Command::ScanFromHere),
+        ] {
+            let place = Rect::from_min_size(at, vec2(124.0, ui.spacing().interact_size.y));
+            let response = ui.put(place, egui::Button::new(text)).on_hover_text(tip);
+            if response.clicked() {
+                commands.push(command);
+            }
+            at.x += 132.0;
+        }
     }
 }
 

@@ -156,8 +156,9 @@ fn row(ui: &mut Ui, state: &State, place: usize, commands: &mut Vec<Command>) {
 
 fn name(source: &Source) -> String {
     match source {
-        Source::File(_) => source.name(),
+        Source::File(_) | Source::Scanned(_) => source.name(),
         Source::Bundled(sample) => sample.title().into(),
+        Source::Simulated(_) => "Simulated pepper".into(),
     }
 }
 

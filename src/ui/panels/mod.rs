@@ -6,4 +6,5 @@ pub mod hemisphere;
 pub mod parameters;
 pub mod ranking;
 pub mod score_map;
+pub mod simulate;
 pub mod why_this_score;

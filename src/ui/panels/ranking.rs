@@ -1,4 +1,4 @@
-//! The planes in the order of their scores: a row each, and the winner's lead above them.
+//! The planes in the order of their scores: a row each, and above them the winner's lead and the parts of its error.
 
 use egui::{Align2, Id, Rect, Response, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
 
@@ -7,7 +7,7 @@ use crate::app::{Command, State};
 use crate::ui::widgets::marks::color32;
 use crate::ui::widgets::memo::{ByAddress, memo};
 use crate::ui::widgets::rows::{ColumnHead, list, row, underline};
-use crate::ui::widgets::{notice, plane_tip};
+use crate::ui::widgets::{error_parts, notice, plane_tip};
 use crate::view::lead_in_words;
 
 /// A column of the table.
@@ -123,6 +123,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             |lead| format!("{lead}."),
         ));
     }
+    error_parts::show(ui, state, commands);
     let id = ui.scope_id().with("ranking");
     let letter = 0.54 * TextStyle::Body.resolve(ui.style()).size;
     let least: f32 = Column::ALL.iter().map(|c| c.letters() * letter).sum();

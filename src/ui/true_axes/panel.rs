@@ -5,7 +5,7 @@ use egui::{Button, ComboBox, ProgressBar, RichText, Role as Spoken, TextEdit, Ui
 use super::{annotators, own_axis, say};
 use crate::annotate::{Author, Role};
 use crate::app::true_axes::Saving;
-use crate::app::{Command, Source, State, TrueAxesCommand};
+use crate::app::{Command, State, TrueAxesCommand};
 use crate::text::sentence;
 use crate::ui::widgets::controls::{caution, hint};
 
@@ -96,10 +96,10 @@ fn mode(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             say(commands, TrueAxesCommand::Blind(is_blind));
         }
     });
-    if matches!(state.source(), Some(Source::Bundled(_))) {
+    if state.source().is_some_and(|source| !source.is_file()) {
         hint(
             ui,
-            "A sample lies in no folder in which its axis could be kept: open a cloud from a file.",
+            "This cloud lies in no folder in which its axis could be kept: open one from a file.",
         );
     }
 }

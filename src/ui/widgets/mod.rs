@@ -2,6 +2,7 @@
 
 pub(super) mod color_scale;
 pub(super) mod controls;
+pub(super) mod error_parts;
 pub(super) mod marks;
 pub(super) mod memo;
 pub(super) mod notice;

@@ -5,9 +5,10 @@ use egui::ViewportCommand;
 use super::Window;
 use crate::app::command_line;
 use crate::app::many::evaluate_command_line;
-use crate::app::{Command, PeduncleCommand, quoted};
+use crate::app::{Command, PeduncleCommand, SimulatorCommand, Source, quoted};
 use crate::fruit::companion_path;
 use crate::ui::action::WindowAct;
+use crate::ui::pane::Pane;
 use crate::ui::window::dialogs;
 use crate::ui::window::palette::Palette;
 use crate::ui::window::save_image::SaveImage;
@@ -30,6 +31,14 @@ impl Window {
         match act {
             WindowAct::OpenFiles => dialogs::open_files(ctx, &answers),
             WindowAct::OpenFolder => dialogs::open_folder(ctx, &answers),
+            WindowAct::Simulate => {
+                self.act(ctx, WindowAct::Show(Pane::Simulate));
+                self.app.apply(Command::Simulate(SimulatorCommand::Open));
+            }
+            WindowAct::SaveCloud => {
+                let name = self.app.state().source().map(Source::name);
+                dialogs::save_cloud(ctx, &answers, name.as_deref().unwrap_or("cloud.ply"));
+            }
             WindowAct::SaveImage => self.saving = Some(SaveImage::new(view_size(self.app.state()))),
             WindowAct::SaveImageOf(size_px) => {
                 let name = self.app.state().source().map(|s| s.path().with_extension("png"));
@@ -65,6 +74,9 @@ impl Window {
             WindowAct::Palette => self.palette = Some(Palette::default()),
             WindowAct::Show(pane) => {
                 let tile = self.tree.tiles.find_pane(&pane);
+                if let Some(tile) = tile {
+                    self.tree.tiles.set_visible(tile, true);
+                }
                 self.tree.make_active(|id, _| Some(id) == tile);
             }
             WindowAct::ResetLayout => {

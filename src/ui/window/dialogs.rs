@@ -15,6 +15,8 @@ pub enum Asked {
     Open(Vec<PathBuf>),
     /// The path for a picture of the view, and its size in pixels.
     SaveImage(PathBuf, [u32; 2]),
+    /// The path for the current cloud.
+    SaveCloud(PathBuf),
     /// A command with a path for the peduncle.
     Peduncle(PeduncleCommand),
     /// The folder that gets a new one with the results.
@@ -51,6 +53,18 @@ pub fn save_image(ctx: &egui::Context, answers: &Sender<Asked>, name: &str, size
         .save_file();
     wait(ctx, answers, async move {
         Some(Asked::SaveImage(path_of(&answer.await?), size_px))
+    });
+}
+
+/// Asks for the path of a cloud that lies in no file yet.
+pub fn save_cloud(ctx: &egui::Context, answers: &Sender<Asked>, name: &str) {
+    let answer = AsyncFileDialog::new()
+        .set_title("Save the cloud, and its truth beside it")
+        .set_file_name(name)
+        .add_filter("Point clouds (PLY)", &["ply"])
+        .save_file();
+    wait(ctx, answers, async move {
+        Some(Asked::SaveCloud(path_of(&answer.await?)))
     });
 }
 

@@ -32,6 +32,7 @@ impl Window {
                 Asked::Open(paths) => Command::Open(paths),
                 Asked::SaveImage(path, size_px) => Command::SaveImage { path, size_px },
                 Asked::Peduncle(command) => Command::Peduncle(command),
+                Asked::SaveCloud(path) => Command::SaveCloud(path),
                 Asked::SaveResults(into) => Command::Many(ManyCommand::SaveResults(into)),
                 Asked::Failed(text) => Command::Say { is_error: true, text },
             }));

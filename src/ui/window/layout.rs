@@ -1,6 +1,6 @@
 //! The arrangement of the panes, at first and as stored.
 
-use egui_tiles::{Linear, LinearDir, TileId, Tiles, Tree};
+use egui_tiles::{Linear, LinearDir, Tile, TileId, Tiles, Tree};
 
 use crate::ui::pane::Pane;
 
@@ -16,7 +16,10 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
         &[Pane::View, Pane::Table, Pane::Charts, Pane::Gallery, Pane::Sweep],
     );
     let columns = if is_wide(window_width) {
-        let left = tabs(&mut tiles, &[Pane::Parameters, Pane::Clouds, Pane::TrueAxes]);
+        let left = tabs(
+            &mut tiles,
+            &[Pane::Parameters, Pane::Clouds, Pane::TrueAxes, Pane::Simulate],
+        );
         let above = tabs(&mut tiles, &[Pane::ScoreMap, Pane::Hemisphere]);
         let middle = tabs(&mut tiles, &[Pane::Ranking]);
         let below = tabs(&mut tiles, &[Pane::WhyThisScore, Pane::Contributions]);
@@ -33,6 +36,7 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
                 Pane::Parameters,
                 Pane::Clouds,
                 Pane::TrueAxes,
+                Pane::Simulate,
                 Pane::WhyThisScore,
                 Pane::Contributions,
             ],
@@ -42,7 +46,17 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
         vec![(left, 0.66), (view, 1.0)]
     };
     let root = linear(&mut tiles, LinearDir::Horizontal, &columns);
+    hide_on_demand(&mut tiles);
     Tree::new(egui::Id::unique("panels"), root, tiles)
+}
+
+/// Hides the panes that wait until somebody asks for them.
+fn hide_on_demand(tiles: &mut Tiles<Pane>) {
+    for pane in Pane::ALL.iter().filter(|pane| pane.is_on_demand()) {
+        if let Some(tile) = tiles.find_pane(pane) {
+            tiles.set_visible(tile, false);
+        }
+    }
 }
 
 /// Whether a window of this width, in logical pixels, has room for panes on both sides.
@@ -64,9 +78,21 @@ fn linear(tiles: &mut Tiles<Pane>, dir: LinearDir, children: &[(TileId, f32)]) -
     tiles.insert_container(linear)
 }
 
-/// Reads a stored arrangement; returns `None` if the text is malformed or lacks a pane.
+/// Reads a stored arrangement; returns `None` if the text is malformed or lacks a pane. One of a version before the panes
+/// on demand gets them, hidden.
 pub fn layout_from(text: &str) -> Option<Tree<Pane>> {
-    let tree: Tree<Pane> = serde_json::from_str(text).ok()?;
+    let mut tree: Tree<Pane> = serde_json::from_str(text).ok()?;
+    for pane in Pane::ALL.into_iter().filter(|pane| pane.is_on_demand()) {
+        if tree.tiles.find_pane(&pane).is_none() {
+            let beside = tree.tiles.find_pane(&Pane::Parameters)?;
+            let group = tree.tiles.parent_of(beside)?;
+            let tile = tree.tiles.insert_pane(pane);
+            tree.tiles.set_visible(tile, false);
+            if let Some(Tile::Container(container)) = tree.tiles.get_mut(group) {
+                container.add_child(tile);
+            }
+        }
+    }
     let has_all = Pane::ALL.iter().all(|pane| tree.tiles.find_pane(pane).is_some());
     (has_all && tree.root.is_some()).then_some(tree)
 }

@@ -1,7 +1,7 @@
 //! The contents of each pane.
 
 use egui::{Frame, Margin, Panel, ScrollArea, WidgetText};
-use egui_tiles::{Behavior, EditAction, SimplificationOptions, TileId, UiResponse};
+use egui_tiles::{Behavior, EditAction, SimplificationOptions, Tile, TileId, Tiles, UiResponse};
 
 use crate::app::{Command, PeduncleCommand, State, TrueAxesCommand};
 use crate::render::Viewport;
@@ -9,7 +9,9 @@ use crate::ui::action::{Act, Action, WindowAct};
 use crate::ui::inspector::{plane_bar, view_bar, view3d};
 use crate::ui::many::{self, PanelRequest};
 use crate::ui::pane::Pane;
-use crate::ui::panels::{clouds, contributions, hemisphere, parameters, ranking, score_map, why_this_score};
+use crate::ui::panels::{
+    clouds, contributions, hemisphere, parameters, ranking, score_map, simulate, why_this_score,
+};
 use crate::ui::widgets::notice;
 use crate::ui::{peduncle, true_axes};
 
@@ -40,6 +42,16 @@ impl Behavior<Pane> for Panes<'_> {
 
     fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
         pane.title().into()
+    }
+
+    fn is_tab_closable(&self, tiles: &Tiles<Pane>, tile: TileId) -> bool {
+        matches!(tiles.get(tile), Some(Tile::Pane(pane)) if pane.is_on_demand())
+    }
+
+    fn on_tab_close(&mut self, tiles: &mut Tiles<Pane>, tile: TileId) -> bool {
+        // It stays in the arrangement, out of sight.
+        tiles.set_visible(tile, false);
+        false
     }
 
     fn simplification_options(&self) -> SimplificationOptions {
@@ -131,6 +143,12 @@ impl Panes<'_> {
                         PanelRequest::CopyCommandLine => WindowAct::CopyEvaluation,
                     }));
                 }
+            }
+            Pane::Simulate => {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    let asked = simulate::show(ui, state, commands);
+                    self.acts.extend(asked.map(Act::Window));
+                });
             }
             Pane::TrueAxes => {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {

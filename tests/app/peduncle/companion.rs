@@ -112,7 +112,12 @@ fn a_sample_s_peduncle_is_saved_elsewhere() {
     let folder = TempDir::new().expect("a folder");
     let mut app = with_sample();
     ask(&mut app, PeduncleCommand::Save);
-    assert!(app.state().messages.iter().any(|m| m.text.contains("sample")));
+    assert!(
+        app.state()
+            .messages
+            .iter()
+            .any(|m| m.text.contains("no folder of its own"))
+    );
     let path = folder.path().join("mine.ply");
     ask(&mut app, PeduncleCommand::SaveAs(path.clone()));
     assert_eq!(

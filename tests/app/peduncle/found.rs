@@ -6,14 +6,7 @@ use super::*;
 fn a_range_of_hues_is_previewed_and_an_empty_one_is_told() {
     let mut app = with_sample();
     let mut request = app.state().settings.request.clone();
-    let cloud = app
-        .state()
-        .walked
-        .as_ref()
-        .expect("analyzed")
-        .fruit
-        .cloud()
-        .clone();
+    let cloud = fruit(&app).cloud().clone();
     let range = HueRange {
         from_deg: 70.0,
         to_deg: 160.0,
@@ -61,8 +54,8 @@ fn a_folder_without_peduncles_tells_what_it_lacks_and_what_does_not_fit() {
         &mut app,
         PeduncleCommand::Choose(PeduncleChoice::Removed(removed.clone())),
     );
-    let fruit = app.state().walked.as_ref().expect("analyzed").fruit.clone();
-    let found = fruit.peduncle.as_ref().expect("found");
+    let now = fruit(&app).clone();
+    let found = now.peduncle.as_ref().expect("found");
     assert_eq!(
         (found.source, found.points),
         (PeduncleSource::Removal, labeled().len())
@@ -70,18 +63,17 @@ fn a_folder_without_peduncles_tells_what_it_lacks_and_what_does_not_fit() {
     // Another fruit under the same name.
     std::fs::copy(asset("ellipsoid.ply"), removed.join("a.ply")).expect("copied");
     act(&mut app, Command::Reload);
-    let fruit = app.state().walked.as_ref().expect("still analyzed").fruit.clone();
-    assert!(fruit.peduncle.is_none());
-    let problem = fruit.peduncle_problem.as_ref().expect("told");
+    let now = fruit(&app).clone();
+    assert!(now.peduncle.is_none());
+    let problem = now.peduncle_problem.as_ref().expect("told");
     assert!(problem.contains("not the same cloud"), "{problem}");
     ask(
         &mut app,
         PeduncleCommand::Choose(PeduncleChoice::File("no/such.ply".into())),
     );
-    let fruit = app.state().walked.as_ref().expect("still analyzed").fruit.clone();
+    let now = fruit(&app).clone();
     assert!(
-        fruit
-            .peduncle_problem
+        now.peduncle_problem
             .as_ref()
             .expect("told")
             .contains("no/such.ply")
@@ -103,7 +95,7 @@ fn a_dropped_companion_is_offered() {
     assert_eq!(app.state().entries.len(), 1);
     ask(&mut app, PeduncleCommand::Choose(PeduncleChoice::File(dropped)));
     assert_eq!(app.state().peduncle.question, None);
-    let fruit = &app.state().walked.as_ref().expect("analyzed").fruit;
+    let fruit = fruit(&app);
     assert_eq!(fruit.peduncle.as_ref().map(|p| p.points), Some(labeled().len()));
 }
 

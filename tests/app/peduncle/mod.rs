@@ -7,7 +7,7 @@ mod picking;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::helpers::driving::{act, app, asset, set, settle, with_sample};
+use crate::helpers::driving::{act, app, asset, fruit, labeled, set, settle, with_sample, write_cloud};
 use axiscope::app::command_line;
 use axiscope::app::peduncle::Question;
 use axiscope::app::{App, Command, PeduncleCommand, Session, Tool};
@@ -17,7 +17,6 @@ use axiscope::geometry::{Cloud, PointSet};
 use axiscope::method::AxisSource;
 use axiscope::method::axis_error_rad;
 use axiscope::peduncle::{HueRange, Peduncle, PeduncleSource};
-use axiscope::ply::{WriteOptions, write};
 use axiscope::render::Viewport;
 use axiscope::view::{Coloring, PEDUNCLE_MARK, ViewPreset};
 use glam::DVec2;
@@ -45,17 +44,6 @@ fn bare_pepper(folder: &TempDir) -> PathBuf {
     )
 }
 
-fn write_cloud(cloud: &Cloud, path: &Path) -> PathBuf {
-    let mut bytes = Vec::new();
-    let options = WriteOptions {
-        unit: Some(axiscope::geometry::Unit::Centimeter),
-        ..WriteOptions::default()
-    };
-    write(&mut bytes, cloud, &options).expect("written");
-    std::fs::write(path, bytes).expect("written");
-    path.to_owned()
-}
-
 fn open(path: &Path) -> App {
     let mut app = app();
     app.set_view(Viewport::new(800.0, 600.0), 1.0, true);
@@ -66,14 +54,7 @@ fn open(path: &Path) -> App {
 
 /// A line around the places at which these points show, with room.
 fn around(app: &App, points: &PointSet) -> Vec<DVec2> {
-    let cloud = app
-        .state()
-        .walked
-        .as_ref()
-        .expect("analyzed")
-        .fruit
-        .cloud()
-        .clone();
+    let cloud = fruit(app).cloud().clone();
     let (camera, viewport) = (app.state().camera, app.state().viewport);
     let pixels: Vec<DVec2> = points
         .iter()
@@ -82,13 +63,6 @@ fn around(app: &App, points: &PointSet) -> Vec<DVec2> {
     let low = pixels.iter().copied().fold(DVec2::INFINITY, DVec2::min) - 2.0;
     let high = pixels.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max) + 2.0;
     vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
-}
-
-/// The points that the bundled pepper's labels call its peduncle.
-fn labeled() -> PointSet {
-    let cloud = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
-    let peduncle = Peduncle::by_label(&cloud).expect("labeled");
-    peduncle.in_cloud.into_iter().collect()
 }
 
 fn picked(app: &App) -> PointSet {
@@ -104,15 +78,7 @@ fn choice(app: &App) -> PeduncleChoice {
 
 /// These points of the current cloud are its peduncle.
 fn pick(app: &mut App, points: &PointSet) {
-    let sha256 = app
-        .state()
-        .walked
-        .as_ref()
-        .expect("analyzed")
-        .fruit
-        .file
-        .sha256
-        .clone();
+    let sha256 = fruit(app).file.sha256.clone();
     let picked = PickedPoints::default().with(&sha256, Arc::new(points.clone()));
     ask(app, PeduncleCommand::Choose(PeduncleChoice::Points(picked)));
 }

@@ -11,14 +11,7 @@ fn a_lasso_around_the_peduncle_of_a_bare_cloud_gives_its_references() {
     assert_eq!(highlighted(&app), 0);
     let path = around(&app, &labeled());
     drag(&mut app, false, &path);
-    let found = app
-        .state()
-        .walked
-        .as_ref()
-        .expect("analyzed")
-        .fruit
-        .peduncle
-        .clone();
+    let found = fruit(&app).peduncle.clone();
     let found = found.expect("picked");
     assert_eq!(found.source, PeduncleSource::Picked);
     assert_eq!(found.in_cloud, picked(&app).iter().collect::<Vec<_>>());
@@ -132,17 +125,7 @@ fn picking_begins_with_the_peduncle_that_there_is() {
     ask(&mut app, PeduncleCommand::Invert);
     assert_eq!(picked(&app).len(), count - labeled().len());
     ask(&mut app, PeduncleCommand::Clear);
-    assert!(
-        picked(&app).is_empty()
-            && app
-                .state()
-                .walked
-                .as_ref()
-                .expect("analyzed")
-                .fruit
-                .peduncle
-                .is_none()
-    );
+    assert!(picked(&app).is_empty() && fruit(&app).peduncle.is_none());
 }
 
 #[test]
@@ -156,7 +139,7 @@ fn what_is_picked_belongs_to_its_cloud_alone() {
     let first = picked(&app);
     act(&mut app, Command::Open(vec![asset("pepper.ply")]));
     assert_eq!(app.state().picked_peduncle(), None);
-    let fruit = &app.state().walked.as_ref().expect("analyzed").fruit;
+    let fruit = fruit(&app);
     assert_eq!(
         fruit.peduncle.as_ref().map(|p| p.source),
         Some(PeduncleSource::Label)

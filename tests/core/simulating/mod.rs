@@ -7,6 +7,7 @@ mod meshes;
 mod pepper;
 mod scans;
 mod seeds;
+mod seen_points;
 mod truth;
 
 use axiscope::simulate::{DepthCamera, PepperSettings, Settings, SimulateError, Simulated, Truth};

@@ -177,6 +177,25 @@ fn rows_are_in_the_order_of_the_scores_and_can_be_sorted() {
 }
 
 #[test]
+fn the_ranking_takes_the_error_apart_and_leads_to_the_nearest_candidate() {
+    let app = app_with(Sample::MissedPepper);
+    let parts = app.state().error_breakdown().expect("it has a truth");
+    let mut harness = harness(app, ranking::show, vec2(640.0, 300.0), Theme::Dark, 1.0);
+    let [error, choice] = [parts.error_deg, parts.choice_part_deg].map(|part| part.expect("an axis"));
+    let (lean, grid) = (parts.lean_part_deg, parts.grid_part_deg);
+    let text = format!("Error {error:.1}° = {lean:.1}° lean + {grid:.1}° grid + {choice:.1}° choice");
+    harness.get_by_label(&text).hover();
+    // A tooltip waits.
+    harness.run_steps(20);
+    let given = parts.true_center.as_ref().expect("the truth tells it");
+    harness.get_by_label_contains(&format!("{:.1} cm from the computed one", given.distance_cm));
+    harness.get_by_label(&text).click();
+    let nearest = &parts.nearest_candidate;
+    let wanted = at(nearest.g as usize, nearest.h as usize);
+    assert_eq!(asked(&mut harness).last(), Some(&wanted));
+}
+
+#[test]
 fn a_plane_chosen_elsewhere_comes_into_view_and_a_scroll_by_hand_stays() {
     let mut app = app_with(Sample::Pepper);
     set(&mut app, |request| request.params.u = 12);

@@ -6,14 +6,13 @@ mod tools;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::helpers::driving::asset;
+use crate::helpers::driving::{asset, labeled, write_cloud};
 use crate::helpers::in_window::{Windowed, apply, compare, compare_left, press, settle, state, window_of};
 use axiscope::app::peduncle::Question;
 use axiscope::app::{Command, PeduncleCommand, Session, Tool};
 use axiscope::fruit::{PeduncleChoice, read_cloud};
-use axiscope::geometry::{Cloud, PointSet};
-use axiscope::peduncle::{HueRange, Peduncle, PeduncleSource};
-use axiscope::ply::{WriteOptions, write};
+use axiscope::geometry::Cloud;
+use axiscope::peduncle::{HueRange, PeduncleSource};
 use axiscope::view::{Overlay, ViewPreset};
 use egui::{Key, Modifiers, PointerButton, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
@@ -28,8 +27,11 @@ fn click(harness: &mut Windowed, label: &str) {
     settle(harness);
 }
 
+/// The folder of the pictures.
+const FOLDER: &str = "screenshots/peduncle";
+
 fn snapshot(harness: &mut Windowed, name: &str) {
-    compare(harness, "screenshots/peduncle", name);
+    compare(harness, FOLDER, name);
 }
 
 /// A copy of the bundled pepper of which only positions, or positions and colors, are left.
@@ -41,23 +43,6 @@ fn pepper(folder: &TempDir, has_colors: bool) -> PathBuf {
         copy = copy.with_colors(colors).expect("one a point");
     }
     write_cloud(&copy, &folder.path().join("fruit.ply"))
-}
-
-fn write_cloud(cloud: &Cloud, path: &Path) -> PathBuf {
-    let mut bytes = Vec::new();
-    let options = WriteOptions {
-        unit: Some(axiscope::geometry::Unit::Centimeter),
-        ..WriteOptions::default()
-    };
-    write(&mut bytes, cloud, &options).expect("written");
-    std::fs::write(path, bytes).expect("written");
-    path.to_owned()
-}
-
-fn labeled() -> PointSet {
-    let cloud = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
-    let peduncle = Peduncle::by_label(&cloud).expect("labeled");
-    peduncle.in_cloud.into_iter().collect()
 }
 
 /// A closed line around the places at which the peduncle shows in the window.

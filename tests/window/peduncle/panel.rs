@@ -74,7 +74,7 @@ fn the_panel_says_what_to_do_where_there_is_no_peduncle() {
     harness.get_by_label("Pick with the lasso").click();
     settle(&mut harness);
     assert_eq!(state(&harness).tool, Tool::Lasso);
-    snapshot(&mut harness, "none_yet");
+    compare_left(&mut harness, FOLDER, "none_yet");
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn hues_are_chosen_on_their_histogram_and_shown_in_the_view() {
             settle(harness);
             assert!(state(harness).peduncle.is_previewed);
             assert!(state(harness).peduncle.marked.as_ref().expect("it shows").points > 0);
-            snapshot(harness, "hues");
+            compare_left(harness, FOLDER, "hues");
         },
     );
     let PeduncleChoice::Hue(range) = state(&harness).settings.request.peduncle else {

@@ -93,7 +93,8 @@ fn everybody_s_axes_are_compared() {
         click(&mut harness, at);
     }
     harness.remove_cursor();
-    snapshot(&mut harness, "agreement_set");
+    settle(&mut harness);
+    compare_left(&mut harness, FOLDER, "agreement_set");
 }
 
 #[cfg(unix)]

@@ -7,7 +7,7 @@ use crate::helpers::driving;
 use crate::helpers::in_window;
 use std::path::{Path, PathBuf};
 
-use crate::helpers::in_window::{Windowed, apply, compare, press, settle, state};
+use crate::helpers::in_window::{Windowed, apply, compare, compare_left, press, settle, state};
 use axiscope::annotate::DiskFiles;
 use axiscope::annotate::{Annotation, Author, CloudId, Ends, Judgment, Store};
 use axiscope::app::true_axes::{EditView, Handle};
@@ -141,9 +141,12 @@ fn set_as(name: &str, cloud: &Path, ends: Ends) {
 
 /// Compares with the committed picture: a few pixels may differ a little, as between drivers. The cursor
 /// stays where it is.
+/// The folder of the pictures.
+const FOLDER: &str = "screenshots/annotating";
+
 fn snapshot(harness: &mut Windowed, name: &str) {
     settle(harness);
-    compare(harness, "screenshots/annotating", name);
+    compare(harness, FOLDER, name);
 }
 
 fn pixel_in(rect: egui::Rect, at: Pos2) -> DVec2 {

@@ -9,7 +9,7 @@ use egui::{
 use crate::app::Command;
 use crate::app::inspector::look::Contributions;
 use crate::ui::widgets::controls::small;
-use crate::view::grouped;
+use crate::view::{grouped, round_step};
 
 const BARS: Color32 = Color32::from_rgb(0x2b, 0x8c, 0xd6);
 const PICKED: Color32 = Color32::from_rgb(0xe6, 0x9f, 0x00);
@@ -216,28 +216,11 @@ impl Histogram<'_> {
     }
 }
 
-/// Returns the step of 1, 2 or 5 times a power of ten that gives about `count` ticks up to `most`.
-fn step(most: f64, count: f64) -> f64 {
-    let rough = most / count;
-    let power = 10.0_f64.powf(rough.log10().floor());
-    let part = rough / power;
-    let whole = if part <= 1.0 {
-        1.0
-    } else if part <= 2.0 {
-        2.0
-    } else if part <= 5.0 {
-        5.0
-    } else {
-        10.0
-    };
-    whole * power
-}
-
 fn paint_axes(ui: &Ui, frame: &Frame, font: &FontId, rect: Rect) {
     let (painter, color) = (ui.painter(), ui.visuals().text_color());
     let stroke = Stroke::new(1.0, color);
     painter.hline(frame.bars.x_range(), frame.bars.bottom(), stroke);
-    let step = step(
+    let step = round_step(
         frame.most_cm,
         f64::from(frame.bars.width() / 60.0).clamp(2.0, 8.0),
     );
@@ -282,21 +265,4 @@ fn paint_axes(ui: &Ui, frame: &Frame, font: &FontId, rect: Rect) {
         font.clone(),
         color,
     );
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ticks_are_round_and_few() {
-        for (most, count, expected) in [
-            (1.0, 4.0, 0.5),
-            (0.9, 5.0, 0.2),
-            (37.0, 4.0, 10.0),
-            (2.0, 2.0, 1.0),
-        ] {
-            assert!((step(most, count) - expected).abs() < 1e-12, "{most} {count}");
-        }
-    }
 }

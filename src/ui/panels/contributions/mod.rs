@@ -149,19 +149,3 @@ impl Counted {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn thousands_are_parted() {
-        assert_eq!(
-            ["0", "999", "1,000", "1,234,567"],
-            [0, 999, 1000, 1_234_567]
-                .map(|points| grouped(points as u64))
-                .each_ref()
-                .map(String::as_str)
-        );
-    }
-}

@@ -44,6 +44,12 @@ pub(super) fn file_actions(state: &State) -> Vec<Action> {
         .when(current.is_some()),
         Action::window("Quit", File, WindowAct::Quit).key(CTRL, Key::Q),
     ];
+    let is_in_no_file = state.source().is_some_and(|source| !source.is_file());
+    actions.extend([
+        Action::window("Save the cloud as a file …", File, WindowAct::SaveCloud).when(is_in_no_file),
+        Action::app(File, "Scan from here", Command::ScanFromHere).when(has_look),
+        Action::window("Simulate a pepper …", File, WindowAct::Simulate),
+    ]);
     actions.extend(Sample::ALL.map(|sample| {
         Action::app(
             File,

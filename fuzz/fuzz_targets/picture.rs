@@ -1,0 +1,8 @@
+//! Feeds one target whatever the fuzzer comes up with: `cargo +nightly fuzz run picture`.
+
+#![no_main]
+
+#[path = "../../tests/campaign/targets.rs"]
+mod targets;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| targets::picture(bytes));

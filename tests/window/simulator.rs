@@ -1,0 +1,69 @@
+//! The simulator in the window.
+
+use axiscope::app::Session;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::helpers::in_window::{Windowed, compare_left, settle, state, window_of};
+
+const FOLDER: &str = "screenshots/panels";
+
+fn opened() -> Windowed {
+    let mut harness = window_of(Session::first(), Vec::new(), [1280.0, 800.0], 1.0);
+    assert!(
+        harness.query_by_label("Simulate").is_none(),
+        "no tab until it is asked for"
+    );
+    harness.get_by_label("File").click();
+    settle(&mut harness);
+    harness.get_by_label_contains("Simulate a pepper").click();
+    settle(&mut harness);
+    harness
+}
+
+#[test]
+fn a_slider_is_dragged_and_the_error_over_it_appears_while_nothing_moves_away() {
+    let mut harness = opened();
+    harness.get_by_label_contains("Drag a slider");
+    let slider = |harness: &Windowed| {
+        let found = harness.get_all_by_label("Lean to camera");
+        let mut rects = found.map(|node| node.rect()).filter(|rect| rect.width() > 60.0);
+        rects.next().expect("a slider")
+    };
+    let rect = slider(&harness);
+    let y = rect.center().y;
+    harness.drag_at(rect.center());
+    settle(&mut harness);
+    for share in [0.4, 0.6, 0.7, 0.3] {
+        harness.hover_at(egui::pos2(rect.left() + share * rect.width(), y));
+        settle(&mut harness);
+        assert_eq!(slider(&harness), rect, "the slider stays under the cursor");
+    }
+    harness.drop_at(egui::pos2(rect.left() + 0.3 * rect.width(), y));
+    settle(&mut harness);
+    assert!(state(&harness).simulator.trail.points().len() >= 4);
+    assert!(state(&harness).shows_simulated());
+    // Away from the slider, whose explanation would cover the others.
+    harness.hover_at(egui::pos2(700.0, 780.0));
+    settle(&mut harness);
+    harness.get_by_label_contains("Chart: error over Lean to camera (°)");
+    compare_left(&mut harness, FOLDER, "simulate");
+}
+
+#[test]
+fn the_tab_can_be_closed_and_asked_for_again() {
+    let mut harness = opened();
+    harness.get_by_label("Parameters").click();
+    settle(&mut harness);
+    assert!(
+        harness.query_by_label("Another pepper").is_none(),
+        "another tab is in front"
+    );
+    harness.get_by_label("Simulate").click();
+    settle(&mut harness);
+    harness.get_by_label("Another pepper").click();
+    settle(&mut harness);
+    assert_eq!(
+        state(&harness).simulator.settings.as_ref().map(|s| s.seed),
+        Some(1)
+    );
+}
