@@ -204,12 +204,18 @@ impl Canvas {
     /// Draws with everything outside of `area` cut off.
     pub(super) fn within(&mut self, area: Area, draw: impl FnOnce(&mut Self)) {
         self.clips += 1;
+        let (id, x, y) = (format!("plot-{}", self.clips), area.left, area.top);
+        let (width, height) = (area.width(), area.height());
+        // kuva's SVG names the region; its definition is the caller's.
+        self.scene.defs.push(format!(
+            r#"<clipPath id="{id}"><rect x="{x}" y="{y}" width="{width}" height="{height}"/></clipPath>"#
+        ));
         self.scene.add(Primitive::ClipStart {
-            x: area.left,
-            y: area.top,
-            width: area.width(),
-            height: area.height(),
-            id: format!("plot-{}", self.clips),
+            x,
+            y,
+            width,
+            height,
+            id,
         });
         draw(self);
         self.scene.add(Primitive::ClipEnd);

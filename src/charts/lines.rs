@@ -66,46 +66,6 @@ impl LineChart {
         }
     }
 
-    /// The chart with a separate panel for the series that lie far above the others, if there are any.
-    ///
-    /// Far is a factor of two or more between the medians of two series that follow each other in height. A guide goes
-    /// to the panel whose series are nearer. Charts that have several panels already stay as they are.
-    #[must_use]
-    pub fn split_by_level(mut self) -> Self {
-        const FAR: f64 = 2.0;
-        let [panel] = self.panels.as_mut_slice() else {
-            return self;
-        };
-        let mut levels: Vec<f64> = panel.series.iter().filter_map(LineSeries::median).collect();
-        levels.sort_by(f64::total_cmp);
-        let gaps = levels
-            .iter()
-            .zip(levels.iter().skip(1))
-            .filter(|(below, _)| **below > 0.0);
-        let widest = gaps.max_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)));
-        let Some((below, above)) = widest.filter(|(below, above)| **above >= FAR * **below) else {
-            return self;
-        };
-        // Half-way on the scale of ratios.
-        let border = (below * above).sqrt();
-        let (high, low) = (panel.series.drain(..))
-            .partition(|series: &LineSeries| series.median().is_some_and(|median| median > border));
-        let (high_guides, low_guides) = panel.guides.drain(..).partition(|guide| guide.value > border);
-        self.panels = vec![
-            LinePanel {
-                series: high,
-                guides: high_guides,
-                y_range: None,
-            },
-            LinePanel {
-                series: low,
-                guides: low_guides,
-                y_range: None,
-            },
-        ];
-        self
-    }
-
     pub(super) fn draw(&self) -> Result<Canvas, FigureError> {
         let all_series = || self.panels.iter().flat_map(|panel| &panel.series);
         let positions = all_series().flat_map(LineSeries::drawn).map(|(x, ..)| x);
@@ -250,12 +210,6 @@ impl LineSeries {
             .filter(|run| !run.is_empty())
             .map(|run| run.iter().filter_map(LinePoint::drawn).collect())
             .collect()
-    }
-
-    fn median(&self) -> Option<f64> {
-        let mut values: Vec<f64> = self.drawn().map(|(_, y, _)| y).collect();
-        values.sort_by(f64::total_cmp);
-        values.get(values.len() / 2).copied()
     }
 }
 

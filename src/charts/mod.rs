@@ -16,6 +16,7 @@ mod scale;
 mod scatter;
 mod style;
 pub(super) mod text;
+mod views;
 
 pub use bars::{BarChart, BarSeries};
 pub use heatmap::Heatmap;
@@ -23,6 +24,7 @@ pub use histogram::Histogram;
 pub use lines::{LineChart, LinePanel, LinePoint, LineSeries};
 pub use scatter::{Scatter, ScatterSeries};
 pub use style::{HEIGHT, WIDTH};
+pub use views::{CloudViews, Dashes, View, ViewKey};
 
 use thiserror::Error;
 
@@ -114,6 +116,8 @@ pub enum Figure {
     Scatter(Scatter),
     /// A map of values over two settings.
     Heatmap(Heatmap),
+    /// A cloud from several sides.
+    Views(CloudViews),
 }
 
 impl Figure {
@@ -129,6 +133,7 @@ impl Figure {
             Self::Histogram(chart) => chart.draw(),
             Self::Scatter(chart) => chart.draw(),
             Self::Heatmap(chart) => chart.draw(),
+            Self::Views(chart) => chart.draw(),
         }?;
         Ok(canvas.into_svg())
     }
@@ -156,7 +161,8 @@ figure_from!(
     Bars(BarChart),
     Histogram(Histogram),
     Scatter(Scatter),
-    Heatmap(Heatmap)
+    Heatmap(Heatmap),
+    Views(CloudViews)
 );
 
 /// A value that exists and is finite.

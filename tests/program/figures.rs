@@ -1,8 +1,8 @@
 //! Figures: what they show, what they leave out, and that they are the same every time.
 
 use axiscope::charts::{
-    BarChart, BarSeries, Figure, FigureError, Guide, HEIGHT, Heatmap, Histogram, Labels, LineChart,
-    LinePanel, LinePoint, LineSeries, Scatter, ScatterSeries, WIDTH,
+    BarChart, BarSeries, CloudViews, Dashes, Figure, FigureError, Guide, HEIGHT, Heatmap, Histogram, Labels,
+    LineChart, LinePanel, LinePoint, LineSeries, Scatter, ScatterSeries, View, ViewKey, WIDTH,
 };
 use resvg::{tiny_skia::Pixmap, usvg::roxmltree::Document};
 
@@ -80,6 +80,29 @@ fn heatmap(cells: Vec<Vec<Option<f64>>>) -> Heatmap {
     }
 }
 
+fn views(points: Vec<((f64, f64), usize)>) -> CloudViews {
+    let key = |name: &str, color, line| ViewKey {
+        name: name.to_owned(),
+        color,
+        line,
+    };
+    let view = |name: &str| View {
+        name: name.to_owned(),
+        points: points.clone(),
+        lines: vec![([(0.0, -9.0), (0.0, 9.0)], 1)],
+    };
+    CloudViews {
+        title: "Error <per> cloud & μ".to_owned(),
+        keys: vec![
+            key("fruit", BLUE, None),
+            key("axis", "#009E73", Some(Dashes::Dashed)),
+        ],
+        columns: 2,
+        views: vec![view("front"), view("side")],
+        unit: "cm",
+    }
+}
+
 /// One figure of every kind, with a value missing where that is possible.
 fn one_of_each() -> Vec<Figure> {
     vec![
@@ -88,6 +111,12 @@ fn one_of_each() -> Vec<Figure> {
         histogram(vec![1.0, 2.0, 2.5, 7.0]).into(),
         scatter(vec![(0.0, 1.0), (2.0, 5.0)]).into(),
         heatmap(vec![vec![Some(1.0), None], vec![Some(3.0), Some(4.0)]]).into(),
+        views(
+            (0..400)
+                .map(|i| ((f64::from(i % 20), f64::from(i / 20)), 0))
+                .collect(),
+        )
+        .into(),
     ]
 }
 
@@ -122,7 +151,12 @@ const BLUE: &str = "#0072b2";
 fn an_svg_holds_title_axis_labels_and_every_name() {
     for figure in one_of_each() {
         let texts = texts(&figure.svg().unwrap());
-        for wanted in ["Error <per> cloud & μ", "Distance z₀ (cm)", "Error (°)"] {
+        // Views have no axes.
+        let has_axes = !matches!(figure, Figure::Views(_));
+        for wanted in ["Error <per> cloud & μ", "Distance z₀ (cm)", "Error (°)"]
+            .into_iter()
+            .take(if has_axes { 3 } else { 1 })
+        {
             assert!(
                 texts.iter().any(|text| text == wanted),
                 "{wanted:?} is missing in {texts:?}"
@@ -133,6 +167,7 @@ fn an_svg_holds_title_axis_labels_and_every_name() {
             Figure::Bars(_) => &["as intended", "Paper 7.37°", "no result"],
             Figure::Scatter(_) => &["as intended"],
             Figure::Heatmap(_) => &["no result"],
+            Figure::Views(_) => &["fruit", "axis", "front"],
             Figure::Histogram(_) => &[],
         };
         for name in names {
@@ -231,6 +266,12 @@ fn nothing_to_draw_is_an_error() {
         scatter(vec![(f64::NAN, 1.0)]).into(),
         heatmap(vec![]).into(),
         heatmap(vec![vec![None]]).into(),
+        views(vec![((f64::NAN, 1.0), 0)]).into(),
+        CloudViews {
+            views: vec![],
+            ..views(vec![])
+        }
+        .into(),
     ];
     for figure in nothing {
         assert_eq!(figure.svg(), Err(FigureError::Empty), "{figure:?}");
@@ -257,6 +298,48 @@ fn lists_of_different_lengths_are_an_error() {
         Err(FigureError::Mismatch {
             expected: 2,
             found: 1,
+            ..
+        })
+    ));
+}
+
+#[test]
+fn views_share_one_scale_and_cut_off_long_lines() {
+    let mut chart = views(vec![((0.0, 0.0), 0), ((10.0, 10.0), 0)]);
+    chart.views[1].points = vec![((0.0, 0.0), 0), ((5.0, 5.0), 0)];
+    let svg = Figure::from(chart.clone()).svg().unwrap();
+    let document = Document::parse(&svg).unwrap();
+    let dots: Vec<(f64, f64)> = (document.descendants())
+        .filter(|n| {
+            n.tag_name().name() == "circle"
+                && n.attribute("fill").is_some_and(|f| f.eq_ignore_ascii_case(BLUE))
+        })
+        .map(|n| {
+            ["cx", "cy"]
+                .map(|a| n.attribute(a).unwrap().parse().unwrap())
+                .into()
+        })
+        .collect();
+    // The first is the legend's.
+    let [_, a, b, c, d] = dots[..] else {
+        panic!("{dots:?}")
+    };
+    assert!(
+        (b.0 - a.0 - 2.0 * (d.0 - c.0)).abs() < 0.1 && b.0 > a.0,
+        "{dots:?}"
+    );
+    assert!(b.1 < a.1, "y is up");
+    assert_eq!(
+        svg.matches("<clipPath id=").count(),
+        2,
+        "lines are cut off at the edge of their view"
+    );
+    chart.views[0].points.push(((0.0, 0.0), 7));
+    assert!(matches!(
+        Figure::from(chart).svg(),
+        Err(FigureError::Mismatch {
+            expected: 2,
+            found: 8,
             ..
         })
     ));
@@ -329,29 +412,35 @@ fn extreme_values_are_drawn_or_refused_but_never_loop() {
 }
 
 #[test]
-fn series_far_above_the_others_get_a_panel_of_their_own() {
+fn panels_have_axes_of_their_own_and_one_below_all() {
     let flat = |name: &str, level: f64| LineSeries::new(name, (25..=70).map(|z| (f64::from(z), Some(level))));
-    let series = vec![flat("near", 6.0), flat("far", 55.0), flat("near, too", 8.0)];
-    let guides = vec![Guide::new(6.47, "Paper 6.47°")];
-    let chart = LineChart::new(labels(), series, guides.clone()).split_by_level();
-    let names = |panel: &LinePanel| {
-        panel
-            .series
-            .iter()
-            .map(|series| series.name.clone())
-            .collect::<Vec<_>>()
+    let panel = |series, value| LinePanel {
+        series,
+        guides: vec![Guide::new(value, format!("paper: {value}°"))],
+        y_range: None,
     };
+    let panels = vec![
+        panel(vec![flat("near", 6.0), flat("near, too", 8.0)], 6.47),
+        panel(vec![flat("far", 55.0)], 50.0),
+    ];
+    let svg = Figure::from(LineChart {
+        labels: labels(),
+        panels,
+    })
+    .svg()
+    .unwrap();
+    let texts = texts(&svg);
+    let times = |wanted: &str| texts.iter().filter(|text| *text == wanted).count();
+    assert_eq!((times("Error (°)"), times("Distance z₀ (cm)")), (2, 1));
+    assert_eq!((times("paper: 6.47°"), times("paper: 50°")), (1, 1));
+    // Lines of two panels differ in color: a legend stands above all.
     assert_eq!(
-        chart.panels.iter().map(names).collect::<Vec<_>>(),
-        [vec!["far"], vec!["near", "near, too"]]
+        (
+            count(&svg, "path", "stroke", BLUE),
+            count(&svg, "path", "stroke", "#009e73")
+        ),
+        (1, 1)
     );
-    assert_eq!(chart.panels[1].guides, guides);
-    let texts = texts(&Figure::from(chart).svg().unwrap());
-    assert_eq!(texts.iter().filter(|text| *text == "Error (°)").count(), 2);
-    assert_eq!(texts.iter().filter(|text| *text == "Distance z₀ (cm)").count(), 1);
-
-    let together = LineChart::new(labels(), vec![flat("a", 6.0), flat("b", 8.0)], vec![]).split_by_level();
-    assert_eq!(together.panels.len(), 1);
 }
 
 #[test]

@@ -1,11 +1,17 @@
 //! The paper's experiments (§ 3) on simulated clouds: their errors beside the paper's, as a report with
 //! tables and figures.
 
+mod catalog;
+mod clouds;
 mod ellipsoids;
 mod figures;
+mod findings;
+mod page;
 mod peppers;
 mod readings;
 mod report;
+mod scans;
+mod settings;
 mod spread;
 mod tables;
 
@@ -16,27 +22,13 @@ use crate::parallel::Cancelled;
 use crate::peduncle::PeduncleError;
 use crate::simulate::SimulateError;
 
+pub use catalog::{Needs, PaperFigure};
 pub use ellipsoids::{EllipsoidDepth, EllipsoidErrors, run_ellipsoids};
-pub use peppers::{PepperErrors, PepperVariant, ReproducedPepper, run_peppers};
+pub use peppers::{PepperErrors, PepperVariant, ReproducedPepper, ScannedPeppers, run_peppers};
 pub use readings::{READINGS, Reading, ReadingCenter};
+pub use scans::Scan;
+pub use settings::{ReproduceSettings, Variation};
 pub use spread::Spread;
-
-/// The settings of the experiments.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReproduceSettings {
-    /// z₀ of § 3.1: the depths of the ellipsoid's center, in centimeters. At least one.
-    pub depths_cm: Vec<f64>,
-    /// Ellipsoids at each depth, each with random points of its own.
-    pub runs: usize,
-    /// Visible points of an ellipsoid.
-    pub points: usize,
-    /// Peppers of § 3.2, each with and without its peduncle.
-    pub peppers: usize,
-    /// Steps of the candidate grid along each angle.
-    pub u: usize,
-    /// The seed of everything random.
-    pub seed: u64,
-}
 
 /// The results of the experiments.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,8 +37,10 @@ pub struct Reproduction {
     pub settings: ReproduceSettings,
     /// § 3.1, in the order of [`ReproduceSettings::depths_cm`].
     pub depths: Vec<EllipsoidDepth>,
-    /// § 3.2.
-    pub peppers: Vec<ReproducedPepper>,
+    /// § 3.2, in the order of [`ReproduceSettings::scans`]; empty without peppers.
+    pub scans: Vec<ScannedPeppers>,
+    /// § 3.2 with one setting changed, in the order of [`ReproduceSettings::variations`]; empty without peppers.
+    pub variations: Vec<(Variation, ScannedPeppers)>,
 }
 
 /// Why an experiment failed.
@@ -73,32 +67,49 @@ pub enum ReproduceError {
 }
 
 impl Reproduction {
-    /// The report in Markdown: every reading's errors beside the paper's, and in plain words what could
-    /// not be reproduced.
-    pub fn report(&self) -> String {
-        report::markdown(&self.settings, &self.depths, &self.peppers)
+    /// The files of one figure, each with its name and bytes, as SVG and PNG. None where the experiments that it needs
+    /// were not run.
+    ///
+    /// # Errors
+    /// Returns an error if the figure cannot be made.
+    pub fn figure_files(&self, figure: PaperFigure) -> Result<Vec<(String, Vec<u8>)>, ReproduceError> {
+        let mut files = Vec::new();
+        for (name, figure) in figure.draw(self)? {
+            files.push((format!("{name}.svg"), figure.svg()?.into_bytes()));
+            files.push((format!("{name}.png"), figure.png(1.0)?));
+        }
+        Ok(files)
     }
 
-    /// The files of the reproduction, each with its name and bytes: `report.md`, the tables as CSV, and
-    /// the figures as SVG and PNG. Without peppers those of § 3.2 are left out.
+    /// The files of the reproduction, each with its name and bytes: the report as `report.md` and, in one file with its
+    /// figures, `report.html`; the tables as CSV; the figures as SVG and PNG. Without peppers those of § 3.2 are
+    /// left out.
     ///
     /// # Errors
     /// Returns an error if a table or a figure cannot be made.
     pub fn files(&self) -> Result<Vec<(String, Vec<u8>)>, ReproduceError> {
-        let mut files = vec![
-            ("report.md".to_owned(), self.report().into_bytes()),
-            ("ellipsoids.csv".to_owned(), tables::ellipsoids(&self.depths)?),
-        ];
-        let mut figures = vec![("fig8", figures::error_per_depth(&self.depths))];
-        if !self.peppers.is_empty() {
-            files.push(("peppers.csv".to_owned(), tables::peppers(&self.peppers)?));
-            figures.push(("fig12", figures::error_per_pepper(&self.peppers, true)));
-            figures.push(("fig13", figures::error_per_pepper(&self.peppers, false)));
+        let mut files = vec![("ellipsoids.csv".to_owned(), tables::ellipsoids(self)?)];
+        if !self.scans.is_empty() {
+            files.push(("peppers.csv".to_owned(), tables::peppers(self)?));
         }
-        for (name, figure) in figures {
-            files.push((format!("{name}.svg"), figure.svg()?.into_bytes()));
-            files.push((format!("{name}.png"), figure.png(1.0)?));
+        let (mut named, mut drawn) = (Vec::new(), Vec::new());
+        for figure in PaperFigure::ALL {
+            if figure.is_of_peppers() && self.scans.is_empty() {
+                continue;
+            }
+            let mut names = Vec::new();
+            for (name, figure) in figure.draw(self)? {
+                let (svg, name) = (figure.svg()?, format!("{name}.svg"));
+                files.push((name.replace(".svg", ".png"), figure.png(1.0)?));
+                files.push((name.clone(), svg.clone().into_bytes()));
+                names.push(name.clone());
+                drawn.push((name, svg));
+            }
+            named.push((figure, names));
         }
+        let report = report::markdown(self, &named);
+        files.push(("report.html".to_owned(), page::page(&report, &drawn).into_bytes()));
+        files.push(("report.md".to_owned(), report.into_bytes()));
         Ok(files)
     }
 }

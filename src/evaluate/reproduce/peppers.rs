@@ -2,26 +2,39 @@
 
 use std::num::NonZeroUsize;
 
-use super::readings::{READINGS, ReadingResult, analyze_by_readings};
+use super::readings::{Analyzed, READINGS, ReadingResult};
+use super::scans::Scan;
 use super::{ReproduceError, ReproduceSettings};
 use crate::geometry::{Cloud, angle_between_lines_rad};
-use crate::method::{Filters, OutlierFilter};
+use crate::method::{CandidateGrid, Filters, OutlierFilter, symmetry_axis};
 use crate::parallel::{Watch, map_pieces};
 use crate::peduncle::Peduncle;
-use crate::simulate::{PepperSettings, Truth, seeds};
+use crate::simulate::{Truth, seeds};
 
-/// The edge of the voxel grid in centimeters. § 2.1 names this filter and the next without a number.
-pub(super) const VOXEL_CM: f64 = 0.2;
-/// Neighbors of the outlier filter.
+/// Neighbors of the outlier filter. § 2.1 names this filter and the voxel grid without a number.
 pub(super) const OUTLIER_NEIGHBORS: usize = 50;
 /// Standard deviations of the outlier filter.
 pub(super) const OUTLIER_STD: f64 = 1.0;
+
+/// A set of peppers that were scanned in one way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScannedPeppers {
+    /// The way that they were scanned and analyzed.
+    pub scan: Scan,
+    /// The peppers.
+    pub peppers: Vec<ReproducedPepper>,
+}
 
 /// One pepper in both of the paper's variants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReproducedPepper {
     /// The seed that it was made from.
     pub seed: u64,
+    /// The share of the fruit's surface that was seen, 0 to 1.
+    pub coverage: Option<f64>,
+    /// The lean of its axis out of the plane across the view ray, in degrees, not negative: by Eq. 16 no error against
+    /// the true axis is less.
+    pub lean_deg: f64,
     /// The cloud with its peduncle.
     pub with_peduncle: PepperVariant,
     /// The cloud without its peduncle.
@@ -33,8 +46,9 @@ pub struct ReproducedPepper {
 pub struct PepperVariant {
     /// Used points.
     pub points: usize,
-    /// One for each of [`READINGS`]; `None` for a reading without an axis.
-    pub readings: [Option<PepperErrors>; READINGS.len()],
+    /// For each of [`ReproduceSettings::grid_sizes`], one for each of [`READINGS`]; `None` for a reading without an
+    /// axis, or that was not computed.
+    pub grids: Vec<[Option<PepperErrors>; READINGS.len()]>,
 }
 
 /// One reading's errors on one cloud.
@@ -48,70 +62,112 @@ pub struct PepperErrors {
     pub reference_to_truth_deg: f64,
     /// The distance of the reading's center from the true one, in centimeters.
     pub center_off_cm: f64,
+    /// The error against the reference of § 3.2 of the candidate that is best by it, in degrees: the limit that the
+    /// grid sets for this center.
+    pub best_candidate_deg: f64,
 }
 
-/// Runs the experiment of § 3.2. The watch is told of each finished pepper.
+impl ReproducedPepper {
+    /// One of its two clouds.
+    pub fn variant(&self, with_peduncle: bool) -> &PepperVariant {
+        if with_peduncle {
+            &self.with_peduncle
+        } else {
+            &self.without_peduncle
+        }
+    }
+}
+
+/// Runs the experiment of § 3.2 on one set of peppers, with the readings at the indices `readings`. The watch is told
+/// of each finished pepper.
 ///
 /// # Errors
 /// Returns an error if a pepper cannot be simulated or analyzed, or the watch cancels the work.
 pub fn run_peppers(
     settings: &ReproduceSettings,
+    scan: &Scan,
+    readings: &[usize],
     watch: &dyn Watch,
-) -> Result<Vec<ReproducedPepper>, ReproduceError> {
-    let seeds = seeds(settings.seed, settings.peppers);
+) -> Result<ScannedPeppers, ReproduceError> {
+    let seeds = seeds(scan.seed, settings.peppers);
     let peppers = map_pieces(settings.peppers, 1, watch, |job| {
-        analyze_pepper(seeds[job.start], settings.u)
+        analyze_pepper(scan, &settings.grid_sizes, readings, seeds[job.start])
     })?;
-    peppers.into_iter().collect()
+    Ok(ScannedPeppers {
+        scan: scan.clone(),
+        peppers: peppers.into_iter().collect::<Result<_, _>>()?,
+    })
 }
 
-fn analyze_pepper(seed: u64, u: usize) -> Result<ReproducedPepper, ReproduceError> {
-    let simulated = PepperSettings {
-        seed,
-        ..PepperSettings::default()
-    }
-    .simulate()?;
+fn analyze_pepper(
+    scan: &Scan,
+    grid_sizes: &[usize],
+    readings: &[usize],
+    seed: u64,
+) -> Result<ReproducedPepper, ReproduceError> {
+    let simulated = scan.pepper(seed).simulate()?;
     let peduncle = Peduncle::by_label(&simulated.cloud)?;
-    let variant = |cloud: Cloud| analyze_variant(cloud, &peduncle, &simulated.truth, u);
+    let analyzed = Analyzed {
+        filters: filters(scan.voxel_cm),
+        normals: scan.normals(),
+        grid_sizes,
+        readings,
+        search_seed: seed.wrapping_add(scan.search),
+    };
+    let variant = |cloud: Cloud| analyze_variant(cloud, &peduncle, &simulated.truth, &analyzed);
     Ok(ReproducedPepper {
         seed,
+        coverage: simulated.truth.coverage,
+        lean_deg: simulated.truth.lean_deg().abs(),
         with_peduncle: variant(simulated.cloud.clone())?,
         without_peduncle: variant(peduncle.removed_from(&simulated.cloud))?,
     })
+}
+
+/// The filters that § 2.1 names.
+pub(super) fn filters(voxel_cm: f64) -> Filters {
+    Filters {
+        keep_strays: false,
+        outliers: Some(OutlierFilter {
+            neighbors: const { NonZeroUsize::new(OUTLIER_NEIGHBORS).unwrap() },
+            std_ratio: OUTLIER_STD,
+        }),
+        voxel_cm: Some(voxel_cm),
+        max_points: usize::MAX,
+    }
 }
 
 fn analyze_variant(
     cloud: Cloud,
     peduncle: &Peduncle,
     truth: &Truth,
-    u: usize,
+    analyzed: &Analyzed<'_>,
 ) -> Result<PepperVariant, ReproduceError> {
-    let filters = Filters {
-        keep_strays: false,
-        outliers: Some(OutlierFilter {
-            neighbors: const { NonZeroUsize::new(OUTLIER_NEIGHBORS).unwrap() },
-            std_ratio: OUTLIER_STD,
-        }),
-        voxel_cm: Some(VOXEL_CM),
-        max_points: usize::MAX,
-    };
-    let errors = |result: &ReadingResult| -> Result<PepperErrors, ReproduceError> {
+    let errors = |result: &ReadingResult, u: usize| -> Result<PepperErrors, ReproduceError> {
         let (axis, true_axis) = (result.axis.direction, truth.axis.direction);
         let reference = peduncle.reference_axis(result.center_cm)?.direction;
+        let to = |axis, reference| angle_between_lines_rad(axis, reference).to_degrees();
+        let grid = CandidateGrid::new(u).map_err(crate::method::AnalysisError::from)?;
+        let axes = grid
+            .candidates()
+            .filter_map(|c| symmetry_axis(c.normal, result.center_cm, truth.viewpoint).ok());
         Ok(PepperErrors {
-            to_reference_deg: angle_between_lines_rad(axis, reference).to_degrees(),
-            to_truth_deg: angle_between_lines_rad(axis, true_axis).to_degrees(),
-            reference_to_truth_deg: angle_between_lines_rad(reference, true_axis).to_degrees(),
+            to_reference_deg: to(axis, reference),
+            to_truth_deg: to(axis, true_axis),
+            reference_to_truth_deg: to(reference, true_axis),
             center_off_cm: result.center_cm.distance(truth.center),
+            best_candidate_deg: axes.map(|axis| to(axis, reference)).fold(90.0, f64::min),
         })
     };
-    let results = analyze_by_readings(cloud, filters, truth.center, u, truth.seed)?;
-    let mut readings = [None; READINGS.len()];
-    for (result, reading) in results.readings.iter().zip(&mut readings) {
-        *reading = result.as_ref().map(errors).transpose()?;
+    let results = analyzed.analyze(cloud, truth.center)?;
+    let mut grids = vec![[None; READINGS.len()]; analyzed.grid_sizes.len()];
+    for ((results, errors_of_grid), &u) in results.grids.iter().zip(&mut grids).zip(analyzed.grid_sizes) {
+        for (result, reading) in results.iter().zip(errors_of_grid) {
+            *reading = result.as_ref().map(|r| errors(r, u)).transpose()?;
+        }
     }
     Ok(PepperVariant {
         points: results.points,
-        readings,
+        grids,
     })
 }
