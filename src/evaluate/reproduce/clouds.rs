@@ -189,13 +189,7 @@ pub(super) fn fig5(settings: &ReproduceSettings) -> Result<Figure, ReproduceErro
         };
         let within = normal.cross(DVec3::Y);
         let across = [(axis_line(center, within, 8.0), 3)];
-        all.push(view(
-            format!("{name}"),
-            Direction::FRONT,
-            surface.points(),
-            key,
-            &[],
-        ));
+        all.push(view(name, Direction::FRONT, surface.points(), key, &[]));
         all.push(view(
             format!("{name}, from above"),
             Direction::ABOVE,
@@ -352,7 +346,7 @@ impl SamplePepper {
 
     /// Fig. 10: the calculated axis from several sides.
     pub(super) fn fig10(&self) -> Figure {
-        let all = self.from_several_sides(false);
+        let all = self.several_sides(false);
         views(
             "The calculated axis of a pepper (as Fig. 10)",
             keys_of_axes(Dashes::Dashed, false),
@@ -363,7 +357,7 @@ impl SamplePepper {
 
     /// Fig. 11: the calculated axis and the reference of § 3.2 from several sides.
     pub(super) fn fig11(&self) -> Figure {
-        let all = self.from_several_sides(true);
+        let all = self.several_sides(true);
         views(
             "Calculated axis and the peduncle's (as Fig. 11)",
             keys_of_axes(Dashes::Solid, true),
@@ -372,7 +366,7 @@ impl SamplePepper {
         )
     }
 
-    fn from_several_sides(&self, with_reference: bool) -> Vec<View> {
+    fn several_sides(&self, with_reference: bool) -> Vec<View> {
         let oblique = Direction::from(DVec3::new(0.6, -0.5, -0.6).normalize());
         let directions = [
             ("the front", Direction::FRONT),

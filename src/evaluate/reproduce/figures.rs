@@ -8,12 +8,15 @@ use crate::charts::{
     BarChart, BarSeries, Figure, Guide, Heatmap, Labels, LineChart, LinePanel, LinePoint, LineSeries,
 };
 
+/// The mean error at a depth and its standard deviation.
+type ErrorAtDepth<'a> = &'a dyn Fn(&EllipsoidDepth) -> (Option<f64>, Option<f64>);
+
 /// Fig. 8: the error at each depth, of the upright candidate alone and of the planes that win under the two presets and
 /// with the true center. Bands are standard deviations over the runs.
 pub(super) fn fig8(results: &Reproduction) -> Figure {
     let grid = results.settings.main_grid();
     let u = results.settings.grid_sizes[grid];
-    let line = |name: String, point: &dyn Fn(&EllipsoidDepth) -> (Option<f64>, Option<f64>)| LineSeries {
+    let line = |name: String, point: ErrorAtDepth<'_>| LineSeries {
         name,
         points: (results.depths.iter())
             .map(|depth| {

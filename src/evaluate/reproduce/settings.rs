@@ -40,6 +40,9 @@ pub struct Variation {
     pub scan: Scan,
 }
 
+/// An option's value as the command line has it.
+type Value<'a> = &'a dyn Fn(&ReproduceSettings) -> String;
+
 impl Default for ReproduceSettings {
     /// The paper's depths, runs and number of peppers; one view and three fused scans.
     fn default() -> Self {
@@ -65,9 +68,9 @@ impl ReproduceSettings {
         let depths = |s: &Self| match s.depths_cm[..] {
             [first, second, .., last] => format!("{first}..{last}:{}", second - first),
             [first, last] => format!("{first}..{last}:{}", last - first),
-            [ref single @ ..] => list(single),
+            _ => list(&s.depths_cm),
         };
-        let options: [(&str, &dyn Fn(&Self) -> String); 8] = [
+        let options: [(&str, Value<'_>); 8] = [
             ("z0", &depths),
             ("runs", &|s| s.runs.to_string()),
             ("points", &|s| s.points.to_string()),
@@ -83,7 +86,8 @@ impl ReproduceSettings {
             .filter(|(_, value)| value(self) != value(&default));
         differing
             .map(|(name, value)| format!(" --{name} {}", value(self)))
-            .collect()
+            .collect::<Vec<_>>()
+            .concat()
     }
 
     /// The index of the u that the figures are drawn for: the paper's 6, else the first.
@@ -167,14 +171,14 @@ impl ReproduceSettings {
             scan.normals_to_viewpoint = true;
         });
         vary("camera poses without error".to_owned(), &|scan| {
-            scan.pose_noise = 0.0
+            scan.pose_noise = 0.0;
         });
         vary("three times the error of the camera poses".to_owned(), &|scan| {
             scan.pose_noise = 3.0;
         });
         vary("voxel grid of 0.3 cm".to_owned(), &|scan| scan.voxel_cm = 0.3);
         vary("the fruit anywhere in the image".to_owned(), &|scan| {
-            scan.anywhere = true
+            scan.anywhere = true;
         });
         variations
     }

@@ -173,11 +173,11 @@ fn verdicts(results: &Reproduction) -> String {
         "under",
         "mean reproduced",
     ]);
-    let mut text = format!("## What is reproduced\n\n{}", table(&head, &rows, false));
-    if results.main_peppers().is_some() {
-        text += &format!("\n\n{}", reproducing_settings(results));
+    let table = format!("## What is reproduced\n\n{}", table(&head, &rows, false));
+    match results.main_peppers() {
+        Some(_) => format!("{table}\n\n{}", reproducing_settings(results)),
+        None => table,
     }
-    text
 }
 
 /// The scans and u under which both means of § 3.2 are reproduced, in a sentence.
@@ -308,21 +308,21 @@ fn assumptions(results: &Reproduction) -> String {
 
 /// Every figure beside the paper's caption, with the command that draws it alone.
 fn gallery(results: &Reproduction, figures: &[(PaperFigure, Vec<String>)]) -> String {
-    let mut text = "## The figures".to_owned();
+    let mut sections = vec!["## The figures".to_owned()];
     for (figure, files) in figures {
         let title = match figure {
             PaperFigure::Map => "The error over coverage and lean".to_owned(),
             other => other.name().replace("fig", "Fig. "),
         };
         let images: Vec<String> = files.iter().map(|file| format!("![{title}]({file})")).collect();
-        text += &format!(
-            "\n\n### {title}\n\n> The paper: {}\n\n{} Drawn alone by `axiscope reproduce --figure {}{}`.\n\n{}",
+        sections.push(format!(
+            "### {title}\n\n> The paper: {}\n\n{} Drawn alone by `axiscope reproduce --figure {}{}`.\n\n{}",
             figure.in_the_paper(),
             figure.here(&results.settings),
             figure.name(),
             results.settings.options(),
             images.join("\n\n")
-        );
+        ));
     }
-    text
+    sections.join("\n\n")
 }

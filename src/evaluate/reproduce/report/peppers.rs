@@ -54,9 +54,37 @@ pub(super) fn section(results: &Reproduction) -> String {
         let rows: Vec<_> = [unchanged].into_iter().chain(changed).collect();
         table(&u_head(&["change", "seen"]), &rows, true)
     };
-    let parts = |with: bool| -> Vec<Vec<String>> {
+    let lean = Spread::of(scanned.peppers.iter().map(|p| p.lean_deg)).map_or(0.0, |s| s.mean);
+    format!(
+        "## § 3.2: peppers with and without peduncle\n\n\
+         The mean error against § 3.2's reference in degrees, with / without the peduncle, as intended; the paper has {:.2} / {:.2}. Bold where both are within {TOLERANCE_DEG}°.\n\n{}\n\n\
+         The same, with a partner for at least half of the points under a plane that may win; the paper names no share:\n\n{}\n\n\
+         How much a setting matters that the paper does not state, from {}, as intended:\n\n{}\n\n\
+         And with half:\n\n{}\n\n\
+         Where the error comes from, {}. The axes lean by {lean:.1}° on average out of the plane across the line of sight, which Eq. 16 cannot express; the best candidate is the one whose axis is nearest to the reference. Where a cloud is more than {MISSED_DEG}° off, a plane across the axis won, under which top and bottom of the fruit are alike.\n\n{}\n\n\
+         Every reading, {}, u = {}, with / without the peduncle:\n\n{}\n\n{}",
+        PEDUNCLE_VARIANTS[1].mean_deg,
+        PEDUNCLE_VARIANTS[0].mean_deg,
+        by_scan(AS_INTENDED),
+        by_scan(HALF),
+        scan_name(scanned),
+        by_change(AS_INTENDED),
+        by_change(HALF),
+        scan_name(scanned),
+        parts(results, scanned),
+        scan_name(scanned),
+        settings.grid_sizes[settings.main_grid()],
+        every_reading(results, scanned),
+        explanation(results, scanned),
+    )
+}
+
+/// Where the error comes from, for each u and variant.
+fn parts(results: &Reproduction, scanned: &ScannedPeppers) -> String {
+    let settings = &results.settings;
+    let rows = |with: bool| -> Vec<Vec<String>> {
         let name = if with { "with" } else { "without" };
-        grids()
+        (0..settings.grid_sizes.len())
             .filter_map(|grid| Some((grid, Cell::of(scanned, grid, AS_INTENDED, with)?)))
             .map(|(grid, c)| {
                 let truth = Cell::of(scanned, grid, TRUE_CENTER_MEAN_SCORE, with).map(|c| c.to_truth.mean);
@@ -76,7 +104,7 @@ pub(super) fn section(results: &Reproduction) -> String {
             })
             .collect()
     };
-    let parts_head = strings([
+    let head = strings([
         "",
         "against § 3.2's reference (°)",
         "least to largest (°)",
@@ -88,29 +116,7 @@ pub(super) fn section(results: &Reproduction) -> String {
         "more than 45° off",
         "mean of the others (°)",
     ]);
-    let lean = Spread::of(scanned.peppers.iter().map(|p| p.lean_deg)).map_or(0.0, |s| s.mean);
-    format!(
-        "## § 3.2: peppers with and without peduncle\n\n\
-         The mean error against § 3.2's reference in degrees, with / without the peduncle, as intended; the paper has {:.2} / {:.2}. Bold where both are within {TOLERANCE_DEG}°.\n\n{}\n\n\
-         The same, with a partner for at least half of the points under a plane that may win; the paper names no share:\n\n{}\n\n\
-         How much a setting matters that the paper does not state, from {}, as intended:\n\n{}\n\n\
-         And with half:\n\n{}\n\n\
-         Where the error comes from, {}. The axes lean by {lean:.1}° on average out of the plane across the line of sight, which Eq. 16 cannot express; the best candidate is the one whose axis is nearest to the reference. Where a cloud is more than {MISSED_DEG}° off, a plane across the axis won, under which top and bottom of the fruit are alike.\n\n{}\n\n\
-         Every reading, {}, u = {}, with / without the peduncle:\n\n{}\n\n{}",
-        PEDUNCLE_VARIANTS[1].mean_deg,
-        PEDUNCLE_VARIANTS[0].mean_deg,
-        by_scan(AS_INTENDED),
-        by_scan(HALF),
-        scan_name(scanned),
-        by_change(AS_INTENDED),
-        by_change(HALF),
-        scan_name(scanned),
-        table(&parts_head, &[parts(true), parts(false)].concat(), true),
-        scan_name(scanned),
-        settings.grid_sizes[settings.main_grid()],
-        every_reading(results, scanned),
-        explanation(results, scanned),
-    )
+    table(&head, &[rows(true), rows(false)].concat(), true)
 }
 
 fn every_reading(results: &Reproduction, scanned: &ScannedPeppers) -> String {
