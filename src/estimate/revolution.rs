@@ -3,7 +3,7 @@
 //! About an axis a through c, a point has t = (p − c)·a / S along the axis and ρ = ‖(p − c) − ((p − c)·a) a‖ / S from it;
 //! S is the fruit's size. The surface is ρ² = f(t), with the square of the profile as a series of Legendre polynomials,
 //!
-//! f(t) = Σ β_k P_k(t / T), k = 0..9,
+//! f(t) = Σ `β_k` `P_k(t / T)`, k = 0..9,
 //!
 //! since a square has no vertical slope at the poles, and its first three terms hold every quadric of revolution (spheres,
 //! spheroids, cones, cylinders) exactly. β is normally distributed: these three widely, the others narrowly. A residual
@@ -15,7 +15,7 @@
 //! The pose has four numbers: two turns of a and two shifts of c across it. A shift along a only relabels t. With q =
 //! (p − c)/S, w its part across a, and g the denominator's inverse,
 //!
-//! ∂r/∂turn = −g (2t + f′) q,  ∂r/∂shift = −2 g w,  ∂r/∂β_k = −g P_k.
+//! ∂r/∂turn = −g (2t + f′) q,  ∂r/∂shift = −2 g w,  ∂r/∂`β_k` = −g `P_k`.
 //!
 //! Pose and β take Levenberg–Marquardt steps together, after which β, in which the problem is linear, is solved anew for
 //! the new pose (variable projection). Poses are compared by the evidence: the loss at the best β, plus the prior's, plus

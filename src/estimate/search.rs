@@ -111,7 +111,7 @@ pub(super) fn estimate<F: Family>(
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         Ok::<_, EstimateError>(found)
     };
-    let searched = spread_out(run(starts.len(), &|i| family.search(starts[i], watch))?);
+    let searched = spread_out(&run(starts.len(), &|i| family.search(starts[i], watch))?);
     let refined = run(searched.len(), &|i| {
         family.refine(&searched[i].fitted.body, watch)
     })?;
@@ -168,11 +168,11 @@ fn distinct<B>(
 }
 
 /// Chooses the bodies that are fitted to the fine sample.
-fn spread_out<B: Clone>(ascending: Vec<Ranked<B>>) -> Vec<Ranked<B>> {
+fn spread_out<B: Clone>(ascending: &[Ranked<B>]) -> Vec<Ranked<B>> {
     let (mut kept, mut most) = (Vec::new(), 0);
     for (count, apart_deg) in REFINED {
         most += count;
-        kept = distinct(ascending.clone(), most, apart_deg, kept);
+        kept = distinct(ascending.to_vec(), most, apart_deg, kept);
     }
     kept
 }
