@@ -167,20 +167,19 @@ fn prepare<'a>(
         .iter()
         .find(|path| Row::name_in(&args.folder, path) == row.file)
         .with_context(|| format!("there is no cloud {:?} in {}", row.file, args.folder.display()))?;
-    let cloud = match known.get(path.as_path()) {
-        Some(cloud) => cloud.clone(),
-        None => {
-            let request = Request {
-                unit: args.unit,
-                peduncle: PeduncleChoice::None,
-                ..Request::default()
-            };
-            let fruit = Fruit::read(path, &request)?;
-            let (sha256, unit) = (fruit.file.sha256.clone(), fruit.unit);
-            let cloud = Arc::new(KnownCloud { sha256, unit });
-            known.insert(path, cloud.clone());
-            cloud
-        }
+    let cloud = if let Some(cloud) = known.get(path.as_path()) {
+        cloud.clone()
+    } else {
+        let request = Request {
+            unit: args.unit,
+            peduncle: PeduncleChoice::None,
+            ..Request::default()
+        };
+        let fruit = Fruit::read(path, &request)?;
+        let (sha256, unit) = (fruit.file.sha256.clone(), fruit.unit);
+        let cloud = Arc::new(KnownCloud { sha256, unit });
+        known.insert(path, cloud.clone());
+        cloud
     };
     anyhow::ensure!(
         row.sha256.as_ref().is_none_or(|hash| *hash == cloud.sha256),

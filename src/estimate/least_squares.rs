@@ -25,9 +25,9 @@ pub trait LeastSquares {
 pub struct Linearized {
     /// The cost at the state.
     pub cost: f64,
-    /// JᵀWJ, symmetric.
+    /// `JᵀWJ`, symmetric.
     pub information: DMatrix<f64>,
-    /// −JᵀWr: the negative gradient of the cost.
+    /// −`JᵀWr`: the negative gradient of the cost.
     pub descent: DVector<f64>,
 }
 

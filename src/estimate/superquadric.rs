@@ -216,10 +216,10 @@ impl<'a> Problem<'a> {
 
     /// The residual of a point, relative to the fruit's size, and its derivatives if they are wanted.
     fn residual(&self, body: &Body, i: usize, derivatives: Option<&mut [f64; PARAMETERS]>) -> f64 {
-        let from_body = (self.sample.points[i] - body.center) / self.size;
-        let q = body.rotation.transpose() * from_body;
+        let position_of = (self.sample.points[i] - body.center) / self.size;
+        let q = body.rotation.transpose() * position_of;
         let distance = q.length().max(1e-6);
-        let cosine = (self.sample.normals[i].dot(from_body) / distance).max(LEAST_COSINE);
+        let cosine = (self.sample.normals[i].dot(position_of) / distance).max(LEAST_COSINE);
         let radial = radial(&body.shape, q);
         // Far inside a thin body the share is huge; the loss is linear there.
         let share = radial.log.min(3.0).exp();

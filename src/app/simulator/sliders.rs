@@ -67,11 +67,29 @@ impl SliderGroup {
 
     /// The sliders of the group.
     pub fn sliders(self) -> &'static [Slider] {
-        use Slider::*;
         match self {
-            Self::Pose => &[LeanTowardsCamera, LeanSideways, Spin, Distance],
-            Self::Fruit => &[Height, Width, Lobes, LobeDepth, Taper, Asymmetry],
-            Self::Scan => &[Views, Arc, PoseError, Noise, Holes, Leaf],
+            Self::Pose => &[
+                Slider::LeanTowardsCamera,
+                Slider::LeanSideways,
+                Slider::Spin,
+                Slider::Distance,
+            ],
+            Self::Fruit => &[
+                Slider::Height,
+                Slider::Width,
+                Slider::Lobes,
+                Slider::LobeDepth,
+                Slider::Taper,
+                Slider::Asymmetry,
+            ],
+            Self::Scan => &[
+                Slider::Views,
+                Slider::Arc,
+                Slider::PoseError,
+                Slider::Noise,
+                Slider::Holes,
+                Slider::Leaf,
+            ],
         }
     }
 }
@@ -87,6 +105,7 @@ struct Facts {
 }
 
 impl Slider {
+    #[expect(clippy::too_many_lines, reason = "a row for each slider")]
     fn facts(self) -> Facts {
         let facts = |label, suffix, range, step, decimals, tip| Facts {
             label,

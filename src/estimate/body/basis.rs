@@ -1,8 +1,8 @@
 //! Spherical harmonics about a candidate axis, and how wide each of their coefficients is expected to be.
 //!
-//! A body that is star-shaped about its center is R(s) = Σ β_j Y_j(s) over unit vectors s = (x, y, z) with z along the
-//! axis. The harmonics are real and Schmidt-normalized, Y_lm = P_l^m(z) · {cos mθ, sin mθ}, and are computed as
-//! Q_lm(z) · {Re, Im}(x + iy)^m with Q_lm = P_l^m / (1 − z²)^{m/2}: polynomials, which have derivatives at the poles too.
+//! A body that is star-shaped about its center is R(s) = Σ `β_j` `Y_j(s)` over unit vectors s = (x, y, z) with z along the
+//! axis. The harmonics are real and Schmidt-normalized, `Y_lm` = `P_l^m(z)` · {cos mθ, sin mθ}, and are computed as
+//! `Q_lm(z)` · {Re, Im}(x + iy)^m with `Q_lm` = `P_l^m` / (1 − z²)^{m/2}: polynomials, which have derivatives at the poles too.
 
 use std::sync::LazyLock;
 
@@ -115,7 +115,7 @@ impl Basis {
         }
     }
 
-    /// Returns the radius Σ β_j Y_j at the unit vector `s`, and its derivatives by x, y and z, taken as independent.
+    /// Returns the radius Σ `β_j` `Y_j` at the unit vector `s`, and its derivatives by x, y and z, taken as independent.
     pub(super) fn radius(&self, beta: &[f64], s: [f64; 3]) -> (f64, [f64; 3]) {
         let mut powers = Powers::new(s);
         let mut next = 0;
@@ -182,7 +182,7 @@ impl Powers {
     }
 }
 
-/// Q_lm(z) and its derivative for one m and all l up to the highest that is asked for.
+/// `Q_lm(z)` and its derivative for one m and all l up to the highest that is asked for.
 struct Legendre {
     value: [f64; DEGREES],
     slope: [f64; DEGREES],
@@ -210,11 +210,11 @@ impl Legendre {
 
 /// The factors of the Legendre functions' recurrences.
 struct Factors {
-    /// Q_mm: constants.
+    /// `Q_mm`: constants.
     sectoral: [f64; ORDERS],
-    /// Q_(m+1)m = rise · z · Q_mm.
+    /// Q_(m+1)m = rise · z · `Q_mm`.
     rise: [f64; ORDERS],
-    /// Q_lm = a · z · Q_(l−1)m − b · Q_(l−2)m, by m and l.
+    /// `Q_lm` = a · z · Q_(l−1)m − b · Q_(l−2)m, by m and l.
     recurrence: [[(f64, f64); DEGREES]; ORDERS],
 }
 

@@ -1,4 +1,4 @@
-//! The weighted Gram matrix AᵀWA of many short rows: nearly all of a fit's time.
+//! The weighted Gram matrix `AᵀWA` of many short rows: nearly all of a fit's time.
 
 #![allow(
     clippy::inline_always,

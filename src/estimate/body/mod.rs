@@ -1,6 +1,6 @@
 //! The estimator `body`: the axis of a nearly rotational body of unknown shape, by the evidence of the points.
 //!
-//! About a candidate axis through a center, a body that is star-shaped is R(s) = Σ β_j Y_j(s), a sum of spherical
+//! About a candidate axis through a center, a body that is star-shaped is R(s) = Σ `β_j` `Y_j(s)`, a sum of spherical
 //! harmonics with the axis as their pole. The zonal ones are a free profile of revolution; those with m ≥ 1 are lobes and
 //! are expected to be small. The probability of the points whatever β is (the evidence) tells how well *some* nearly
 //! rotational body about this axis explains them, and is largest for the axis about which the fruit is most nearly
@@ -85,7 +85,7 @@ impl BodyFit {
                 "Points lie behind one another, as in a cloud fused from several views: the axis is fitted without an outline.",
             ),
             View::Inside => {
-                warn("The viewpoint lies among the points: the axis is fitted without an outline.")
+                warn("The viewpoint lies among the points: the axis is fitted without an outline.");
             }
         }
         if self

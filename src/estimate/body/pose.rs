@@ -39,7 +39,7 @@ impl Pose {
     }
 
     /// Returns the position of body coordinates.
-    pub(super) fn from_body(self, w: DVec3) -> DVec3 {
+    pub(super) fn position_of(self, w: DVec3) -> DVec3 {
         self.center + self.frame * DVec3::new(w.x, w.y, w.z * self.stretch)
     }
 

@@ -28,8 +28,8 @@ impl Observations {
         self.points.len() + self.rays.len()
     }
 
-    /// Computes the rows of all observations, one after another, `basis.terms() + EXTRA` numbers each: the k Y_j, the
-    /// derivatives of the misfit by the pose, and k R. The misfit is k (R − Σ β_j Y_j), about the distance between point
+    /// Computes the rows of all observations, one after another, `basis.terms() + EXTRA` numbers each: the k `Y_j`, the
+    /// derivatives of the misfit by the pose, and k R. The misfit is k (R − Σ `β_j` `Y_j`), about the distance between point
     /// and body in centimeters.
     pub(super) fn rows(&self, basis: &Basis, pose: Pose, beta: &[f64], rows: &mut [f64]) {
         let width = basis.terms() + EXTRA;
@@ -95,7 +95,7 @@ struct Place {
     radius: f64,
     /// w / R.
     unit: DVec3,
-    /// R − Σ β_j Y_j.
+    /// R − Σ `β_j` `Y_j`.
     misfit: f64,
     /// The derivatives of the misfit by w.
     slope: DVec3,

@@ -69,7 +69,7 @@ impl Body {
         let (across, along) = around_rad.sin_cos();
         let unit = DVec3::new(sin * along, sin * across, cos);
         let (radius, _) = self.basis().radius(&self.beta, unit.to_array());
-        self.pose.from_body(radius * unit)
+        self.pose.position_of(radius * unit)
     }
 
     /// Returns the profile of the body of revolution that the zonal terms describe: (t, ρ), along the axis and from it in
@@ -110,7 +110,7 @@ impl Body {
         let values = grid.values.chunks_exact(self.beta.len());
         grid.units.iter().zip(values).map(|(&unit, values)| {
             let radius: f64 = values.iter().zip(&self.beta).map(|(y, b)| y * b).sum();
-            self.pose.from_body(radius * unit)
+            self.pose.position_of(radius * unit)
         })
     }
 }

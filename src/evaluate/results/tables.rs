@@ -48,8 +48,11 @@ macro_rules! parts {
     };
 }
 
+/// A column's name, and its value in a row.
+type NamedColumn = (&'static str, fn(&Row) -> Value);
+
 /// The columns that every table has, in order.
-const COLUMNS: [(&str, fn(&Row) -> Value); 45] = [
+const COLUMNS: [NamedColumn; 45] = [
     ("file", |row| Value::Text(Some(row.file.clone()))),
     ("sha256", |row| Value::Text(row.sha256.clone())),
     ("points", |row| Value::Count(row.points)),

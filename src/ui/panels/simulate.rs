@@ -149,9 +149,10 @@ fn chart(ui: &mut Ui, state: &State, settings: &PepperSettings) {
         ui.painter().galley(place, galley, ui.visuals().text_color());
     }
     response.widget_info(|| {
-        let label = match has_slider {
-            true => format!("Chart: error over {name}, {} values", known.len()),
-            false => NO_SLIDER.to_owned(),
+        let label = if has_slider {
+            format!("Chart: error over {name}, {} values", known.len())
+        } else {
+            NO_SLIDER.to_owned()
         };
         WidgetInfo::labeled(egui::Role::Image, true, label)
     });
