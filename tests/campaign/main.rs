@@ -168,7 +168,7 @@ fn store_of_damaged_files() {
         if let Some(bytes) = pick(&journals, random) {
             disk.write_file(&author.journal_path(cloud, 1), &bytes);
         }
-        targets::store(disk, cloud);
+        targets::store(&disk, cloud);
     });
 }
 
@@ -186,7 +186,7 @@ fn small_json_files() {
         serde_json::to_vec_pretty(&truth).expect("JSON"),
     ];
     campaign("small_json_files", |random| {
-        targets::json(&mutated(&files, random))
+        targets::json(&mutated(&files, random));
     });
 }
 

@@ -73,12 +73,12 @@ pub fn analyzed(cloud: &Cloud, choice: [u8; 4]) {
         CenterMethod::Sphere
     };
     params.filters.keep_strays = choice[0] & 4 != 0;
-    params.filters.voxel_cm = (choice[0] & 8 != 0).then(|| 10_f64.powi(i32::from(choice[3] as i8)));
+    params.filters.voxel_cm = (choice[0] & 8 != 0).then(|| 10_f64.powi(i32::from(choice[3].cast_signed())));
     if choice[0] & 16 != 0 {
         params.filters.max_points = 100;
     }
     if choice[0] & 32 != 0 {
-        params.tau_cm_per_rad = 10_f64.powi(i32::from(choice[3] as i8));
+        params.tau_cm_per_rad = 10_f64.powi(i32::from(choice[3].cast_signed()));
     }
     match analyze(cloud, &params, &()) {
         Ok(found) => {
@@ -124,7 +124,7 @@ pub fn journal(bytes: &[u8]) {
 }
 
 /// A store that finds these bytes as its journal or its axis file: it opens, and its next edit is read again.
-pub fn store(files: impl Files + Clone + 'static, cloud: &Path) {
+pub fn store(files: &(impl Files + Clone + 'static), cloud: &Path) {
     let open = || {
         let cloud_id = CloudId {
             file: "cloud.ply".into(),

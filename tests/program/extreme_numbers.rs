@@ -13,7 +13,7 @@ fn scaled(folder: &TempDir, by: f64, more: &[&str]) -> std::path::PathBuf {
         .lines()
         .map(|row| {
             let xyz = row.split_whitespace().take(3).map(|x| x.parse::<f64>().unwrap());
-            xyz.map(|x| format!("{:e} ", by * x)).collect()
+            xyz.map(|x| format!("{:e}", by * x)).collect::<Vec<_>>().join(" ")
         })
         .chain(more.iter().map(|&row| row.to_owned()))
         .collect();

@@ -80,7 +80,7 @@ fn heatmap(cells: Vec<Vec<Option<f64>>>) -> Heatmap {
     }
 }
 
-fn views(points: Vec<((f64, f64), usize)>) -> CloudViews {
+fn views(points: &[((f64, f64), usize)]) -> CloudViews {
     let key = |name: &str, color, line| ViewKey {
         name: name.to_owned(),
         color,
@@ -88,7 +88,7 @@ fn views(points: Vec<((f64, f64), usize)>) -> CloudViews {
     };
     let view = |name: &str| View {
         name: name.to_owned(),
-        points: points.clone(),
+        points: points.to_vec(),
         lines: vec![([(0.0, -9.0), (0.0, 9.0)], 1)],
     };
     CloudViews {
@@ -105,18 +105,16 @@ fn views(points: Vec<((f64, f64), usize)>) -> CloudViews {
 
 /// One figure of every kind, with a value missing where that is possible.
 fn one_of_each() -> Vec<Figure> {
+    let raster: Vec<_> = (0..400)
+        .map(|i| ((f64::from(i % 20), f64::from(i / 20)), 0))
+        .collect();
     vec![
         lines(&[Some(6.0), None, Some(7.0), Some(8.0)]).into(),
         bars(vec![Some(6.0), None, Some(9.0)]).into(),
         histogram(vec![1.0, 2.0, 2.5, 7.0]).into(),
         scatter(vec![(0.0, 1.0), (2.0, 5.0)]).into(),
         heatmap(vec![vec![Some(1.0), None], vec![Some(3.0), Some(4.0)]]).into(),
-        views(
-            (0..400)
-                .map(|i| ((f64::from(i % 20), f64::from(i / 20)), 0))
-                .collect(),
-        )
-        .into(),
+        views(&raster).into(),
     ]
 }
 
@@ -266,10 +264,10 @@ fn nothing_to_draw_is_an_error() {
         scatter(vec![(f64::NAN, 1.0)]).into(),
         heatmap(vec![]).into(),
         heatmap(vec![vec![None]]).into(),
-        views(vec![((f64::NAN, 1.0), 0)]).into(),
+        views(&[((f64::NAN, 1.0), 0)]).into(),
         CloudViews {
             views: vec![],
-            ..views(vec![])
+            ..views(&[])
         }
         .into(),
     ];
@@ -305,7 +303,7 @@ fn lists_of_different_lengths_are_an_error() {
 
 #[test]
 fn views_share_one_scale_and_cut_off_long_lines() {
-    let mut chart = views(vec![((0.0, 0.0), 0), ((10.0, 10.0), 0)]);
+    let mut chart = views(&[((0.0, 0.0), 0), ((10.0, 10.0), 0)]);
     chart.views[1].points = vec![((0.0, 0.0), 0), ((5.0, 5.0), 0)];
     let svg = Figure::from(chart.clone()).svg().unwrap();
     let document = Document::parse(&svg).unwrap();

@@ -2,6 +2,7 @@
 #![cfg(unix)]
 
 use std::ffi::OsStr;
+use std::fmt::Write as _;
 use std::io::Write;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
@@ -89,7 +90,7 @@ fn the_memory_of_an_import_does_not_grow_with_its_rows() {
     std::fs::rename(made, set.join("big.ply")).unwrap();
     let mut table = "file,annotator,peduncle_base_x,peduncle_base_y,peduncle_base_z,blossom_end_x,blossom_end_y,blossom_end_z\n".to_owned();
     for row in 0..160 {
-        table += &format!("big.ply,Name{row}x,0,-4,25,0,4,25\n");
+        writeln!(table, "big.ply,Name{row}x,0,-4,25,0,4,25").unwrap();
     }
     let path = folder.path().join("table.csv");
     std::fs::write(&path, table).unwrap();

@@ -1,6 +1,7 @@
 //! The simulator in the window.
 
 use axiscope::app::Session;
+use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 
 use crate::helpers::in_window::{Windowed, compare_left, settle, state, window_of};
@@ -8,7 +9,7 @@ use crate::helpers::in_window::{Windowed, compare_left, settle, state, window_of
 const FOLDER: &str = "screenshots/panels";
 
 fn opened() -> Windowed {
-    let mut harness = window_of(Session::first(), Vec::new(), [1280.0, 800.0], 1.0);
+    let mut harness = window_of(Session::first(), Vec::new(), [1600.0, 900.0], 1.0);
     assert!(
         harness.query_by_label("Simulate").is_none(),
         "no tab until it is asked for"
@@ -25,9 +26,8 @@ fn a_slider_is_dragged_and_the_error_over_it_appears_while_nothing_moves_away() 
     let mut harness = opened();
     harness.get_by_label_contains("Drag a slider");
     let slider = |harness: &Windowed| {
-        let found = harness.get_all_by_label("Lean to camera");
-        let mut rects = found.map(|node| node.rect()).filter(|rect| rect.width() > 60.0);
-        rects.next().expect("a slider")
+        let found = harness.get_by_role_and_label(Role::Slider, "Lean to camera");
+        found.rect()
     };
     let rect = slider(&harness);
     let y = rect.center().y;
@@ -40,10 +40,11 @@ fn a_slider_is_dragged_and_the_error_over_it_appears_while_nothing_moves_away() 
     }
     harness.drop_at(egui::pos2(rect.left() + 0.3 * rect.width(), y));
     settle(&mut harness);
-    assert!(state(&harness).simulator.trail.points().len() >= 4);
+    let errors = state(&harness).simulator.trail.points();
+    assert!(errors.len() >= 4, "{errors:?}");
     assert!(state(&harness).shows_simulated());
     // Away from the slider, whose explanation would cover the others.
-    harness.hover_at(egui::pos2(700.0, 780.0));
+    harness.hover_at(egui::pos2(800.0, 880.0));
     settle(&mut harness);
     harness.get_by_label_contains("Chart: error over Lean to camera (°)");
     compare_left(&mut harness, FOLDER, "simulate");

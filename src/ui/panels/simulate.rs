@@ -1,6 +1,6 @@
 //! The simulator: sliders for the fruit, its pose and its scan, and the error that follows from them.
 
-use egui::{Color32, Label, RichText, Slider as Bar, SliderClamping, Ui, WidgetInfo, vec2};
+use egui::{Color32, Id, Label, RichText, Slider as Bar, SliderClamping, Ui, UiBuilder, WidgetInfo, vec2};
 use egui_plot::{GridMark, Line, Plot, PlotBounds, Points};
 
 use crate::app::{Command, SimulatorCommand, Slider, SliderGroup, State};
@@ -56,15 +56,20 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<W
     });
     result(ui, state);
     chart(ui, state, settings);
-    for group in SliderGroup::ALL {
-        section(ui, group.title(), true, false, |ui| {
-            for &slider in group.sliders() {
-                if let Some(value) = row(ui, slider, settings, commands) {
-                    commands.push(Command::Simulate(SimulatorCommand::Move(slider, value)));
+    // Names of their own: those made of the widgets before them change with the chart, and a slider that changes its name
+    // while it is dragged is let go.
+    let sliders = UiBuilder::new().scope_id(Id::unique("sliders of the simulator"));
+    ui.scope_builder(sliders, |ui| {
+        for group in SliderGroup::ALL {
+            section(ui, group.title(), true, false, |ui| {
+                for &slider in group.sliders() {
+                    if let Some(value) = row(ui, slider, settings, commands) {
+                        commands.push(Command::Simulate(SimulatorCommand::Move(slider, value)));
+                    }
                 }
-            }
-        });
-    }
+            });
+        }
+    });
     asked
 }
 

@@ -163,7 +163,7 @@ fn a_sample_has_no_folder_for_an_axis() {
         app.state()
             .messages
             .iter()
-            .any(|message| message.text.contains("sample"))
+            .any(|message| message.text.contains("lies in no folder"))
     );
 }
 

@@ -39,7 +39,7 @@ fn in_all_formats(folder: &Path, positions: &[DVec3], triangles: &[[u32; 3]]) ->
         )
     };
     let mut binary_ply = header("binary_big_endian").into_bytes();
-    for x in positions.iter().flat_map(|p| p.to_array()) {
+    for x in positions.iter().flat_map(DVec3::to_array) {
         binary_ply.extend(x.to_be_bytes());
     }
     for t in triangles {
