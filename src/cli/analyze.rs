@@ -217,7 +217,7 @@ fn write_text(
     for timed in estimates {
         row(
             out,
-            &format!("Axis by {}", timed.estimate.estimator.name()),
+            &format!("By {}", timed.estimate.estimator.name()),
             &described(timed, examined),
         )?;
     }

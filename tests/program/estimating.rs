@@ -42,7 +42,7 @@ fn the_estimates_stand_beside_the_paper_s_in_the_json() {
             .all(|pair| cost(&pair[0]) <= cost(&pair[1]))
     );
     let text = analyze(&pepper, "");
-    assert!(text.out.contains("Axis by body"), "{}", text.out);
+    assert!(text.out.contains("By body"), "{}", text.out);
 }
 
 #[test]
