@@ -170,7 +170,7 @@ impl Inspector {
                 cx.state.is_viewpoint_inside = matches!(error, AnalysisError::ViewpointInsideCloud { .. });
                 cx.state.set_subject(&fruit, &shown);
                 let name = cx.state.source().map(Source::name).unwrap_or_default();
-                cx.state.unanalyzed = Some((shown, Some(sentence(&format!("{name}: {error}")))));
+                cx.state.unanalyzed = Some((shown, Some(format!("{name}: {error}."))));
             }
             Err(AnalyzeError::Fruit(error)) => {
                 set_problem(&mut cx.state, Some(sentence(&error.reason())));
