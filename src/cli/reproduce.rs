@@ -44,7 +44,7 @@ pub(super) struct Reproduce {
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// At most 5 runs and 6 peppers: a tenth of the time, to see what comes out
+    /// At most 5 runs and 6 peppers: a seventh of the time, to see what comes out
     #[arg(long)]
     quick: bool,
     /// Draw these figures alone, in a list with commas, and run only what they need
