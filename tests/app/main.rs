@@ -3,6 +3,7 @@
 #[path = "../helpers/mod.rs"]
 mod helpers;
 
+mod damaged_sessions;
 mod inspector;
 mod many;
 mod many_tags;
