@@ -3,6 +3,7 @@
 #[path = "../helpers/mod.rs"]
 mod helpers;
 
+mod estimators;
 mod inspector;
 mod many;
 mod many_tags;
