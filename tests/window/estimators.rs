@@ -25,10 +25,14 @@ fn the_panel_says_why_and_lets_the_body_s_axis_count() {
     let mut harness = opened();
     harness.get_by_label_contains("The best axis more than 20° away");
     harness.get_by_label_contains("The prior “lean=30,8” adds");
-    harness.get_by_role_and_label(Role::RadioButton, "Body").click_accesskit();
+    harness
+        .get_by_role_and_label(Role::RadioButton, "Body")
+        .click_accesskit();
     settle(&mut harness);
     assert_eq!(state(&harness).estimators.counts, Estimator::Body);
-    harness.get_by_role_and_label(Role::CheckBox, "surface").click_accesskit();
+    harness
+        .get_by_role_and_label(Role::CheckBox, "surface")
+        .click_accesskit();
     settle(&mut harness);
     assert!(state(&harness).estimators.parts.surface);
     assert_eq!(state(&harness).settings.request.estimates.prior, Prior::default());
