@@ -36,7 +36,7 @@ mod tags;
 mod thumbnails;
 
 pub use error_breakdown::{ErrorBreakdown, GivenCenter, NearestPlane};
-pub use estimates::{EstimateInRow, estimates_of, surface_of};
+pub use estimates::{EstimateInRow, estimates_of, surface_of, surface_of_fruit};
 pub use examine::{
     Examination, TruthChoice, collect_references, examine, examine_file, peduncle_disagreement_deg,
     reference_of,

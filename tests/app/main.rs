@@ -4,6 +4,7 @@
 mod helpers;
 
 mod damaged_sessions;
+mod estimators;
 mod inspector;
 mod many;
 mod many_tags;

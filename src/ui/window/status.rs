@@ -3,6 +3,7 @@
 use egui::RichText;
 
 use crate::app::{Command, State};
+use crate::estimate::Estimator;
 use crate::method::{Analysis, axis_error_rad};
 use crate::ui::widgets::controls::button;
 use crate::ui::widgets::progress::stage_progress;
@@ -61,9 +62,13 @@ fn result(ui: &mut egui::Ui, state: &State) {
         return;
     }
     let mut parts = vec![used, format!("preset {}", analysis.params.preset_name())];
-    match (&analysis.axis, state.reference()) {
+    let name = match state.estimators.counts {
+        Estimator::Body => "body's axis",
+        _ => "best axis",
+    };
+    match (state.counted_axis(), state.reference()) {
         (Some(axis), Some(reference)) => parts.push(format!(
-            "best axis {:.1}° off the {} axis",
+            "{name} {:.1}° off the {} axis",
             axis_error_rad(axis, reference).to_degrees(),
             reference_name(&reference.source.name())
         )),
