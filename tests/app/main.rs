@@ -9,6 +9,7 @@ mod inspector;
 mod many;
 mod many_tags;
 mod peduncle;
+mod scan_from_here;
 mod simulator;
 mod true_axes;
 mod why;
