@@ -6,6 +6,7 @@ use crate::app::{Command, State};
 use crate::method::axis_error_rad;
 use crate::ui::widgets::controls::button;
 use crate::ui::widgets::progress::stage_progress;
+use crate::ui::widgets::reference;
 use crate::view::lead_in_words;
 
 /// Shows the bar.
@@ -59,28 +60,16 @@ fn result(ui: &mut egui::Ui, state: &State) {
     let mut parts = vec![used, format!("preset {}", analysis.params.preset_name())];
     match (&analysis.axis, state.reference()) {
         (Some(axis), Some(reference)) => parts.push(format!(
-            "best axis {:.1}° off the {} axis",
+            "best axis {:.1}° off {}",
             axis_error_rad(axis, reference).to_degrees(),
-            reference_name(&reference.source.name())
+            reference.source.in_words()
         )),
-        (Some(_), None) => parts.push("no reference axis".into()),
+        (Some(_), None) => parts.push(reference::none_in_words(state.many.against).into()),
         (None, _) => parts.push("no axis".into()),
     }
     ui.label(parts.join(" · "));
     if let Some(lead) = lead_in_words(analysis) {
         ui.add(egui::Label::new(RichText::new(lead).weak()).truncate());
-    }
-}
-
-/// Returns the name of a reference's source.
-fn reference_name(source: &str) -> &str {
-    match source {
-        "simulation" => "simulated",
-        "peduncle" => "peduncle's",
-        "peduncle-direction" => "peduncle's own",
-        "adjudicated" => "adjudicated",
-        other if other.starts_with("annotators:") => "annotators' mean",
-        other => other.strip_prefix("annotator:").unwrap_or(other),
     }
 }
 
