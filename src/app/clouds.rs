@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::App;
 use super::samples::Sample;
-use super::source::{ScanFromHere, Source};
+use super::scan_from_here::ScanFromHere;
+use super::source::Source;
 use super::state::{Entry, PlaneChoice, State};
 use crate::fruit::clouds_in;
 
@@ -58,7 +59,11 @@ impl App {
     pub(super) fn scan_from_here(&mut self) {
         let state = &self.context.state;
         let Some(whole) = state.source() else { return };
-        let scan = Source::Scanned(ScanFromHere::new(whole, &state.camera));
+        let scan = Source::Scanned(ScanFromHere::new(
+            whole,
+            state.settings.request.unit,
+            &state.camera,
+        ));
         let mut request = state.settings.request.clone();
         // The camera is at the origin of its own frame.
         request.params.viewpoint = glam::DVec3::ZERO;

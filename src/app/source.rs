@@ -1,21 +1,16 @@
 //! The sources of clouds: files, samples, the simulator, and scans of another cloud.
 
-use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use glam::{DMat3, DQuat, DVec3};
-
 use super::samples::Sample;
+use super::scan_from_here::ScanFromHere;
 use super::simulator::pepper::SimulatedPepper;
 use crate::files::write_all;
 use crate::fruit::{CloudFile, ReadError, parse_cloud, read_cloud_watched, simulated_files};
-use crate::geometry::{Cloud, Unit};
+use crate::geometry::Unit;
 use crate::parallel::Watch;
-use crate::peduncle::median_spacing;
-use crate::ply::{Encoding, PlyCloud, Precision, WriteOptions, write};
-use crate::render::Camera;
-use crate::simulate::seen_points;
+use crate::ply::{Encoding, Precision, WriteOptions, write};
 
 /// The source of a cloud.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -26,7 +21,7 @@ pub enum Source {
     Bundled(Sample),
     /// A pepper of the simulator, which has no file.
     Simulated(SimulatedPepper),
-    /// The part of a cloud that a camera would see.
+    /// The part of a cloud or a mesh that a camera would see.
     Scanned(ScanFromHere),
 }
 
@@ -111,80 +106,11 @@ impl Source {
                 (file, Some(sample.truth().into()))
             }
             Self::Simulated(pepper) => pepper.read(self.path())?,
-            Self::Scanned(scan) => (scan.seen_of(&scan.of.read(watch)?.file), None),
+            Self::Scanned(scan) => (scan.read(watch)?, None),
         };
         Ok(Content {
             file: Arc::new(file),
             truth,
         })
-    }
-}
-
-/// A cloud as it is seen from a place. Two are the same if cloud, place and direction are.
-#[derive(Debug, Clone)]
-pub struct ScanFromHere {
-    of: Box<Source>,
-    eye: DVec3,
-    /// The rotation from the view's frame to the cloud's.
-    cloud_from_view: DQuat,
-    path: PathBuf,
-}
-
-impl ScanFromHere {
-    /// The scan of a cloud by a camera in the place of the view's.
-    pub(super) fn new(of: &Source, camera: &Camera) -> Self {
-        let name = of.path().file_stem().unwrap_or_default().to_string_lossy();
-        Self {
-            path: format!("<scanned>/{name}_from_here.ply").into(),
-            of: Box::new(of.clone()),
-            eye: camera.eye_in_world,
-            cloud_from_view: camera.world_from_view,
-        }
-    }
-
-    /// The name that stands in for a path.
-    fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// The part of the whole cloud that is seen, in the camera's frame.
-    fn seen_of(&self, whole: &CloudFile) -> CloudFile {
-        // The view looks along −z with y up, a depth camera along z with y down.
-        let view_from_cloud = DMat3::from_quat(self.cloud_from_view.conjugate());
-        let camera_from_cloud = DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)) * view_from_cloud;
-        let cloud = &whole.ply.cloud;
-        let seen = match median_spacing(cloud.positions()) {
-            Some(spacing) => seen_points(cloud, self.eye, camera_from_cloud, spacing),
-            None => Cloud::new(Vec::new()),
-        };
-        CloudFile {
-            path: self.path.clone(),
-            sha256: whole.sha256.clone(),
-            ply: PlyCloud {
-                cloud: seen,
-                ..whole.ply.clone()
-            },
-        }
-    }
-
-    fn bits(&self) -> [u64; 7] {
-        let [x, y, z] = self.eye.to_array();
-        let [i, j, k, w] = self.cloud_from_view.to_array();
-        [x, y, z, i, j, k, w].map(f64::to_bits)
-    }
-}
-
-impl PartialEq for ScanFromHere {
-    fn eq(&self, other: &Self) -> bool {
-        self.of == other.of && self.bits() == other.bits()
-    }
-}
-
-impl Eq for ScanFromHere {}
-
-impl Hash for ScanFromHere {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.of.hash(state);
-        self.bits().hash(state);
     }
 }

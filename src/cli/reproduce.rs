@@ -32,6 +32,9 @@ pub(super) struct Reproduce {
     /// Simulated peppers, each with and without its peduncle; 0 leaves § 3.2 out
     #[arg(long, value_name = "N", default_value_t = 27, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     peppers: u32,
+    /// Sets of so many peppers: how far apart the means of Fig. 12 and 13 are that one set or another gives
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    sets: u32,
     /// Steps of the grid of candidate planes along each angle, in a list with commas
     #[arg(long, value_name = "N", value_delimiter = ',', default_value = "5,6,7,10,12,14", value_parser = grid_size)]
     u: Vec<usize>,
@@ -44,7 +47,7 @@ pub(super) struct Reproduce {
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// At most 5 runs and 6 peppers: a seventh of the time, to see what comes out
+    /// At most 5 runs, 6 peppers and 3 sets of them: a seventh of the time, to see what comes out
     #[arg(long)]
     quick: bool,
     /// Draw these figures alone, in a list with commas, and run only what they need
@@ -110,6 +113,7 @@ fn experiments(args: &Reproduce) -> anyhow::Result<Reproduction> {
         settings,
         depths: Vec::new(),
         scans: Vec::new(),
+        other_sets: Vec::new(),
         variations: Vec::new(),
     };
     let settings = &results.settings;
@@ -124,26 +128,28 @@ fn experiments(args: &Reproduce) -> anyhow::Result<Reproduction> {
         _ if needed(Needs::MainScan) => vec![settings.main()],
         _ => Vec::new(),
     };
-    let varied = if all && !planned.is_empty() {
-        settings.variations()
+    let (other_sets, varied) = if all && !planned.is_empty() {
+        (settings.other_sets(), settings.variations())
     } else {
-        Vec::new()
+        (Vec::new(), Vec::new())
     };
-    let sets = planned.len() + varied.len();
-    let run = |set: usize, scan: &Scan| {
-        let bar = CountingBar::new(&format!("§ 3.2, peppers, set {set} of {sets}"), settings.peppers);
+    let sets = planned.len() + other_sets.len() + varied.len();
+    let mut done = 0;
+    let mut run = |scan: &Scan| {
+        done += 1;
+        let bar = CountingBar::new(&format!("§ 3.2, peppers, set {done} of {sets}"), settings.peppers);
         let scanned = run_peppers(settings, scan, settings.readings_of(scan), &bar);
         bar.finish();
         scanned
     };
     for scan in &planned {
-        results.scans.push(run(results.scans.len() + 1, scan)?);
+        results.scans.push(run(scan)?);
+    }
+    for scan in &other_sets {
+        results.other_sets.push(run(scan)?);
     }
     for variation in varied {
-        let scanned = run(
-            sets - settings.variations().len() + results.variations.len() + 1,
-            &variation.scan,
-        )?;
+        let scanned = run(&variation.scan)?;
         results.variations.push((variation, scanned));
     }
     Ok(results)
@@ -156,6 +162,7 @@ fn settings(args: &Reproduce) -> ReproduceSettings {
         runs: args.runs as usize,
         points: args.points,
         peppers: args.peppers as usize,
+        sets: args.sets as usize,
         grid_sizes: args.u.clone(),
         arcs_deg: args.arc.clone(),
         leans_deg: args.lean.clone(),
@@ -164,6 +171,7 @@ fn settings(args: &Reproduce) -> ReproduceSettings {
     if args.quick {
         settings.runs = settings.runs.min(5);
         settings.peppers = settings.peppers.min(6);
+        settings.sets = settings.sets.min(3);
     }
     settings
 }

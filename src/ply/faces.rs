@@ -21,13 +21,14 @@ pub struct PlyMesh {
 /// Returns the errors of [`read`], and an error if there are no faces, they are malformed or end early, or a vertex is
 /// not finite.
 pub fn read_mesh(bytes: &[u8]) -> Result<PlyMesh, PlyError> {
+    let header = Header::parse(bytes)?;
+    // Before the vertices, which may be many: most clouds have no faces.
+    let (face, indices) = face_list(&header).ok_or_else(|| PlyError::of_file(Problem::NoFaces))?;
     let vertices = read(bytes)?;
     let not_finite = vertices.dropped_not_finite;
     if not_finite > 0 {
         return Err(PlyError::of_file(Problem::VerticesNotFinite(not_finite)));
     }
-    let header = Header::parse(bytes)?;
-    let (face, indices) = face_list(&header).ok_or_else(|| PlyError::of_file(Problem::NoFaces))?;
     let mut body = Body {
         bytes,
         at: header.body,

@@ -58,6 +58,11 @@ pub struct DepthCamera {
     pub dropout: f64,
 }
 
+impl DepthCamera {
+    /// The farthest depth that a camera may measure, in centimeters.
+    pub const FARTHEST_CM: f64 = 1000.0;
+}
+
 impl Default for DepthCamera {
     fn default() -> Self {
         Self {

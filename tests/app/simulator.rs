@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use axiscope::app::{App, Command, SimulatorCommand, Slider, SliderGroup};
+use axiscope::app::{App, Command, SimulatorCommand, Slider, SliderGroup, Source};
 use axiscope::geometry::angle_between_lines_rad;
 use axiscope::method::analyze;
 use axiscope::simulate::PepperSettings;
@@ -78,6 +78,26 @@ fn the_errors_kept_are_those_over_one_slider_with_all_else_equal() {
         3,
         "a fruit that moves along its ray is the same fruit"
     );
+}
+
+#[test]
+fn nothing_is_made_anew_while_no_slider_moves() {
+    let mut app = app();
+    simulate(&mut app, SimulatorCommand::Open);
+    lean(&mut app, 10.0);
+    for _ in 0..3 {
+        let state = app.state();
+        let Some(Source::Simulated(pepper)) = state.source() else {
+            panic!("the pepper is shown");
+        };
+        let settings = state.simulator.settings.as_deref().expect("it is open");
+        assert!(std::ptr::eq(pepper.settings(), settings), "the very same");
+        app.update(Duration::from_millis(16));
+    }
+    // Settings that were left and are wanted again are the same cloud.
+    lean(&mut app, 20.0);
+    lean(&mut app, 10.0);
+    assert_eq!(app.state().simulator.trail.points().len(), 3);
 }
 
 #[test]

@@ -153,7 +153,7 @@ fn reproduce(out: &Path, more: &[&str]) -> Ran {
 fn reproduce_writes_its_report_tables_and_figures() {
     let folder = TempDir::new().unwrap();
     let out = folder.path().join("report");
-    let ran = reproduce(&out, &[]);
+    let ran = reproduce(&out, &["--sets", "3"]);
     for said in [
         "6.47",
         "What is reproduced",
@@ -183,8 +183,52 @@ fn reproduce_writes_its_report_tables_and_figures() {
     let rows = |name: &str| read(name).lines().count() - 1;
     let (grids, readings, depths) = (2, 9, 2);
     assert_eq!(rows("ellipsoids.csv"), grids * depths * readings);
-    // Two scans and nine changes, with and without the peduncle.
-    assert_eq!(rows("peppers.csv"), (2 + 9) * 2 * grids * readings);
+    // Two scans, two other sets and seven changes, with and without the peduncle.
+    assert_eq!(rows("peppers.csv"), (2 + 2 + 7) * 2 * grids * readings);
+    the_sets_are_summed_up(&read("report.md"), &read("peppers.csv"));
+}
+
+/// Compares the report's row of other sets for u = 5 with the table of single peppers.
+fn the_sets_are_summed_up(report: &str, peppers: &str) {
+    let mut table = csv::Reader::from_reader(peppers.as_bytes());
+    let head = table.headers().unwrap().clone();
+    let column =
+        |row: &csv::StringRecord, name: &str| row[head.iter().position(|c| c == name).unwrap()].to_owned();
+    let of_main_scan = |row: &csv::StringRecord| {
+        let change = column(row, "change");
+        let is_set = change == "other peppers" || change.is_empty();
+        is_set
+            && column(row, "arc_deg") == "30.0"
+            && column(row, "u") == "5"
+            && column(row, "peduncle") == "with"
+    };
+    let rows: Vec<_> = table.records().map(Result::unwrap).filter(of_main_scan).collect();
+    let reading = |row: &csv::StringRecord| column(row, "reading");
+    let intended = reading(&rows[1]);
+    let errors: Vec<f64> = (rows.iter().filter(|row| reading(row) == intended))
+        .map(|row| column(row, "error_deg").parse().unwrap())
+        .collect();
+    let seeds: Vec<String> = (rows.iter().filter(|row| reading(row) == intended))
+        .map(|row| column(row, "set_seed"))
+        .collect();
+    assert_eq!(seeds, ["0", "1", "2"]);
+    // A set has one pepper here.
+    let mean = errors.iter().sum::<f64>() / 3.0;
+    let std = (errors.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / 3.0).sqrt();
+    let below = errors.iter().filter(|&&e| e < 6.9343).count();
+    let section = report.split("## § 3.2 on other sets").nth(1).unwrap();
+    let expected = format!("| u = 5 | {mean:.1} ± {std:.1} |");
+    let row = section.lines().find(|line| line.starts_with(&expected));
+    let row = row.unwrap_or_else(|| panic!("{expected} is not in\n{section}"));
+    assert_eq!(row.split(" | ").nth(3), Some(format!("{below} of 3").as_str()));
+}
+
+#[test]
+fn reproduce_on_one_set_says_nothing_of_others() {
+    let folder = TempDir::new().unwrap();
+    let ran = reproduce(folder.path(), &["--sets", "1"]);
+    assert!(!ran.out.contains("## § 3.2 on other sets"), "{}", ran.out);
+    assert!(ran.out.contains("for 0 other sets of them and 7 changes"));
 }
 
 #[test]

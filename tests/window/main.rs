@@ -14,3 +14,4 @@ mod real_window;
 mod rendering;
 mod simulator;
 mod true_axes;
+mod whole_scan;

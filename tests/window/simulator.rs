@@ -9,7 +9,11 @@ use crate::helpers::in_window::{Windowed, compare_left, settle, state, window_of
 const FOLDER: &str = "screenshots/panels";
 
 fn opened() -> Windowed {
-    let mut harness = window_of(Session::first(), Vec::new(), [1600.0, 900.0], 1.0);
+    opened_at([1600.0, 900.0])
+}
+
+fn opened_at(size: [f32; 2]) -> Windowed {
+    let mut harness = window_of(Session::first(), Vec::new(), size, 1.0);
     assert!(
         harness.query_by_label("Simulate").is_none(),
         "no tab until it is asked for"
@@ -67,4 +71,16 @@ fn the_tab_can_be_closed_and_asked_for_again() {
         state(&harness).simulator.settings.as_ref().map(|s| s.seed),
         Some(1)
     );
+}
+
+#[test]
+fn in_a_small_window_the_tab_that_was_asked_for_is_in_sight() {
+    let mut harness = opened_at([1280.0, 800.0]);
+    let tab = harness.get_by_label("Simulate").rect();
+    let view = harness.get_by_label("View").rect();
+    assert!(
+        tab.left() >= 0.0 && tab.right() < view.left(),
+        "{tab} beside {view}"
+    );
+    assert!(tab.width() > 40.0, "all of it: {tab}");
 }

@@ -164,10 +164,17 @@ impl Inspector {
         match result {
             Ok(walked) => self.accept_walked(walked, cx),
             Err(AnalyzeError::Analysis { fruit, shown, error }) => {
-                set_problem(&mut cx.state, Some(sentence(&error.to_string())));
+                let is_inside = matches!(error, AnalysisError::ViewpointInsideCloud { .. });
+                // The view says at length what is the matter with a whole scan.
+                let problem = if is_inside {
+                    "Whole scan".to_owned()
+                } else {
+                    sentence(&error.to_string())
+                };
+                set_problem(&mut cx.state, Some(problem));
                 cx.state.warnings.clone_from(&fruit.warnings);
                 self.forget_analysis(cx);
-                cx.state.is_viewpoint_inside = matches!(error, AnalysisError::ViewpointInsideCloud { .. });
+                cx.state.is_viewpoint_inside = is_inside;
                 cx.state.set_subject(&fruit, &shown);
                 let name = cx.state.source().map(Source::name).unwrap_or_default();
                 cx.state.unanalyzed = Some((shown, Some(format!("{name}: {error}."))));

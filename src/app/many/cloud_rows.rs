@@ -200,6 +200,18 @@ impl TableRow {
         Some(100.0 * self.outcome.as_ref()?.row().lead?)
     }
 
+    /// Returns the lean of the reference axis out of the plane across the view ray in degrees, 0 to 90: by Eq. 16 no
+    /// error is less.
+    pub fn lean_deg(&self, choice: TruthChoice) -> Option<f64> {
+        let reference = self.outcome.as_ref()?.reference(choice)?;
+        Some(reference.error_parts.as_ref()?.lean_deg)
+    }
+
+    /// Returns the share of the fruit's surface that the camera saw in percent, which only the simulator knows.
+    pub fn coverage_percent(&self) -> Option<f64> {
+        Some(100.0 * self.outcome.as_ref()?.row().coverage?)
+    }
+
     fn passes(&self, filter: &Filter, search: &str, choice: TruthChoice) -> bool {
         let found = |text: &str| text.to_lowercase().contains(search);
         let is_sought = search.is_empty()

@@ -43,7 +43,7 @@ impl App {
         let Some(settings) = self.context.state.simulator.settings.clone() else {
             return;
         };
-        let source = Source::Simulated(SimulatedPepper::new(&settings));
+        let source = Source::Simulated(SimulatedPepper::new(settings));
         let is_simulated = |source: &Source| matches!(source, Source::Simulated(_));
         let entries = &mut self.context.state.entries;
         match entries.iter().position(|entry| is_simulated(&entry.source)) {
@@ -67,14 +67,18 @@ impl App {
             return;
         }
         state.note_simulated_error();
-        let wanted = SimulatedPepper::new(&settings);
         let Some(entry) = state.current.and_then(|place| state.entries.get_mut(place)) else {
             return;
         };
-        if entry.source != Source::Simulated(wanted.clone()) {
-            entry.source = Source::Simulated(wanted);
+        // By address: this is asked in every frame.
+        if matches!(&entry.source, Source::Simulated(pepper) if pepper.is_of(&settings)) {
+            return;
+        }
+        let wanted = Source::Simulated(SimulatedPepper::new(settings));
+        if entry.source != wanted {
             state.settings.plane = PlaneChoice::Best;
         }
+        entry.source = wanted;
     }
 }
 
@@ -106,12 +110,13 @@ impl State {
         let (Some(walked), Some(Source::Simulated(pepper))) = (&self.walked, self.source()) else {
             return;
         };
-        if self.is_stale {
+        if self.is_stale || self.simulator.trail.has_noted(&walked.analysis) {
             return;
         }
-        let (pepper, params) = (pepper.clone(), walked.analysis.params.clone());
+        let (pepper, analysis) = (pepper.clone(), walked.analysis.clone());
         let error_deg = self.simulated_error_deg();
-        self.simulator.trail.note(pepper.settings(), &params, error_deg);
+        let trail = &mut self.simulator.trail;
+        trail.note(pepper.settings(), &analysis, error_deg);
     }
 
     /// The angle in degrees between the best plane's axis and the true one of the simulated pepper in the view; `None`

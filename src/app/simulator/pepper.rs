@@ -20,12 +20,17 @@ pub struct SimulatedPepper {
 }
 
 impl SimulatedPepper {
-    pub(super) fn new(settings: &PepperSettings) -> Self {
+    pub(super) fn new(settings: Arc<PepperSettings>) -> Self {
         Self {
-            settings: Arc::new(settings.clone()),
             // Without a failure: settings are plain numbers.
-            text: serde_json::to_string(settings).unwrap_or_default().into(),
+            text: serde_json::to_string(&*settings).unwrap_or_default().into(),
+            settings,
         }
+    }
+
+    /// Whether it was made of these very settings, and not of equal ones.
+    pub(super) fn is_of(&self, settings: &Arc<PepperSettings>) -> bool {
+        Arc::ptr_eq(&self.settings, settings)
     }
 
     /// Its settings.
@@ -61,7 +66,7 @@ impl SimulatedPepper {
 
 impl PartialEq for SimulatedPepper {
     fn eq(&self, other: &Self) -> bool {
-        self.text == other.text
+        Arc::ptr_eq(&self.text, &other.text) || self.text == other.text
     }
 }
 

@@ -1,7 +1,9 @@
 //! The errors of a simulated pepper over the slider that is being moved.
 
+use std::sync::{Arc, Weak};
+
 use super::sliders::Slider;
-use crate::method::Params;
+use crate::method::{Analysis, Params};
 use crate::simulate::PepperSettings;
 
 /// An error at a place of the slider.
@@ -20,6 +22,8 @@ pub struct Trail {
     /// The settings but for the slider's, and the parameters, that the errors were made with.
     made_with: Option<(PepperSettings, Params)>,
     points: Vec<TrailPoint>,
+    /// The analysis whose error was added last.
+    noted: Weak<Analysis>,
 }
 
 impl Trail {
@@ -43,14 +47,25 @@ impl Trail {
         }
     }
 
-    /// Adds an error. Those that were made with anything else than the slider set otherwise are forgotten.
-    pub(super) fn note(&mut self, settings: &PepperSettings, params: &Params, error_deg: Option<f64>) {
+    /// Whether this analysis, by its address, is the one whose error was added last.
+    pub(super) fn has_noted(&self, analysis: &Arc<Analysis>) -> bool {
+        std::ptr::eq(self.noted.as_ptr(), Arc::as_ptr(analysis))
+    }
+
+    /// Adds the error of an analysis. Those that were made with anything else than the slider set otherwise are forgotten.
+    pub(super) fn note(
+        &mut self,
+        settings: &PepperSettings,
+        analysis: &Arc<Analysis>,
+        error_deg: Option<f64>,
+    ) {
+        self.noted = Arc::downgrade(analysis);
         let Some((slider, value)) = self.slider.and_then(|s| Some((s, s.value(settings)?))) else {
             return;
         };
         let mut others = settings.clone();
         slider.clear(&mut others);
-        let made_with = Some((others, params.clone()));
+        let made_with = Some((others, analysis.params.clone()));
         if self.made_with != made_with {
             self.made_with = made_with;
             self.points.clear();

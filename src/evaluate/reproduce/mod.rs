@@ -39,6 +39,8 @@ pub struct Reproduction {
     pub depths: Vec<EllipsoidDepth>,
     /// § 3.2, in the order of [`ReproduceSettings::scans`]; empty without peppers.
     pub scans: Vec<ScannedPeppers>,
+    /// § 3.2 on other sets of peppers, in the order of [`ReproduceSettings::other_sets`]; empty without peppers.
+    pub other_sets: Vec<ScannedPeppers>,
     /// § 3.2 with one setting changed, in the order of [`ReproduceSettings::variations`]; empty without peppers.
     pub variations: Vec<(Variation, ScannedPeppers)>,
 }

@@ -5,8 +5,6 @@ use super::scans::Scan;
 
 /// The u that § 3.2 states with Fig. 9; § 2.2 says u > 4.
 pub(super) const PAPER_U: usize = 6;
-/// The seed of the other sets of peppers, which tell how much the set matters.
-const OTHER_SETS: [u64; 2] = [1, 2];
 /// The draws of Eq. 3's random points beside the first.
 const OTHER_SEARCHES: [u64; 2] = [1, 2];
 
@@ -21,6 +19,8 @@ pub struct ReproduceSettings {
     pub points: usize,
     /// Peppers of § 3.2, each with and without its peduncle.
     pub peppers: usize,
+    /// Sets of that many peppers in all, under the scan of Fig. 12 and 13: how far apart their means are. At least one.
+    pub sets: usize,
     /// Steps of the candidate grid along each angle. At least one.
     pub grid_sizes: Vec<usize>,
     /// Whole arcs of the scans of § 3.2 in degrees; 0 is one view. At least one.
@@ -51,6 +51,7 @@ impl Default for ReproduceSettings {
             runs: 50,
             points: 1500,
             peppers: 27,
+            sets: 8,
             grid_sizes: vec![5, PAPER_U, 7, 10, 12, 14],
             arcs_deg: vec![0.0, 120.0, 180.0, 240.0],
             leans_deg: vec![8.0, 15.0, 30.0],
@@ -70,11 +71,12 @@ impl ReproduceSettings {
             [first, last] => format!("{first}..{last}:{}", last - first),
             _ => list(&s.depths_cm),
         };
-        let options: [(&str, Value<'_>); 8] = [
+        let options: [(&str, Value<'_>); 9] = [
             ("z0", &depths),
             ("runs", &|s| s.runs.to_string()),
             ("points", &|s| s.points.to_string()),
             ("peppers", &|s| s.peppers.to_string()),
+            ("sets", &|s| s.sets.to_string()),
             ("u", &|s| list(&s.grid_sizes)),
             ("arc", &|s| list(&s.arcs_deg)),
             ("lean", &|s| list(&s.leans_deg)),
@@ -146,6 +148,15 @@ impl ReproduceSettings {
         }
     }
 
+    /// The scan of Fig. 12 and 13 on the other sets of peppers, whose seeds follow upon the first.
+    pub fn other_sets(&self) -> Vec<Scan> {
+        let of_set = |set| Scan {
+            seed: self.seed.wrapping_add(set),
+            ..self.main()
+        };
+        (1..self.sets as u64).map(of_set).collect()
+    }
+
     /// The changes to the scan of Fig. 12 and 13.
     pub fn variations(&self) -> Vec<Variation> {
         let main = &self.main();
@@ -155,10 +166,6 @@ impl ReproduceSettings {
             change(&mut scan);
             variations.push(Variation { name, scan });
         };
-        for set in OTHER_SETS {
-            let seed = self.seed.wrapping_add(set);
-            vary(format!("other peppers (seed {seed})"), &|scan| scan.seed = seed);
-        }
         for search in OTHER_SEARCHES {
             vary(
                 format!("other random points of Eq. 3 (draw {})", search + 1),

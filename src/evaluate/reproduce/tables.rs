@@ -27,6 +27,7 @@ struct PepperRow<'a> {
     views: u32,
     max_lean_deg: f64,
     change: &'a str,
+    set_seed: u64,
     u: usize,
     cloud: usize,
     seed: u64,
@@ -83,8 +84,10 @@ pub(super) fn ellipsoids(results: &Reproduction) -> Result<Vec<u8>, TableError> 
 /// Returns an error if memory runs out.
 pub(super) fn peppers(results: &Reproduction) -> Result<Vec<u8>, TableError> {
     let scans = results.scans.iter().map(|scan| ("", scan));
+    let sets = results.other_sets.iter().map(|scan| ("other peppers", scan));
     let variations = results.variations.iter().map(|(v, scan)| (v.name.as_str(), scan));
     let rows = scans
+        .chain(sets)
         .chain(variations)
         .flat_map(|(change, scanned)| pepper_rows(&results.settings.grid_sizes, change, scanned));
     csv_of(rows)
@@ -103,6 +106,7 @@ fn pepper_rows<'a>(grid_sizes: &[usize], change: &'a str, scanned: &ScannedPeppe
                         views: scan.views(),
                         max_lean_deg: scan.lean_deg,
                         change,
+                        set_seed: scan.seed,
                         u,
                         cloud: i + 1,
                         seed: pepper.seed,

@@ -205,7 +205,6 @@ fn cursor_lines(state: &State, pixels_per_point: f32) -> Vec<Line> {
     lines
 }
 
-/// Draws notices in the upper left corner while the view does not show the current settings.
 /// Shows what has to be said about the view in its upper left corner, with the way out where there is one.
 fn notices(ui: &mut egui::Ui, rect: Rect, state: &State, commands: &mut Vec<Command>) {
     let mut lines: Vec<String> = Vec::new();

@@ -59,6 +59,8 @@ fn reason(state: &State) -> (String, bool) {
             "No cloud is open. Open a file, or one of the samples.".into(),
             false,
         ),
+        // With its reason and the ways out in the view, once.
+        (Some(_), Some(_)) if state.is_viewpoint_inside => ("Not analyzed: see the view.".into(), false),
         (Some(_), Some(problem)) => (problem, false),
         (Some(name), None) if state.was_cancelled => (format!("The analysis of {name} was stopped."), true),
         (Some(name), None) => (format!("{name} is being analyzed."), false),

@@ -35,3 +35,14 @@ fn every_chart_is_drawn() {
         snapshot(&mut harness, name);
     }
 }
+
+#[test]
+fn errors_are_shown_over_lean_and_coverage_where_truths_tell_them() {
+    let (_dir, mut harness) = window_on_peppers();
+    press(&mut harness, Modifiers::COMMAND, Key::Num3);
+    for title in ["By lean", "By coverage"] {
+        harness.get_by_label(title).click();
+        settle(&mut harness);
+        harness.get_by_label_contains(&format!("Chart: {title}, 10 clouds"));
+    }
+}

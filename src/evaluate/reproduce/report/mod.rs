@@ -3,6 +3,7 @@
 
 mod ellipsoids;
 mod peppers;
+mod sets;
 
 use super::findings::{
     Comparison, PAPER_FIG_8_DEG, PAPER_FIG_8_RANGE_DEG, PEDUNCLE_VARIANTS, TOLERANCE_DEG, upright_means,
@@ -22,6 +23,7 @@ pub(super) fn markdown(results: &Reproduction, figures: &[(PaperFigure, Vec<Stri
     ];
     if results.main_peppers().is_some() {
         sections.push(peppers::section(results));
+        sections.extend(sets::section(results));
     }
     sections.push(gallery(results, figures));
     sections.join("\n\n") + "\n"
@@ -50,12 +52,13 @@ fn introduction(results: &Reproduction) -> String {
         String::new()
     } else {
         format!(
-            " § 3.2 is run on {} simulated peppers for each of {} scans, and for each of {} changes to the scan {}, lean at most {}°.",
+            " § 3.2 is run on {} simulated peppers for each of {} scans, and from {}, lean at most {}°, for {} other sets of them and {} changes.",
             settings.peppers,
             scans.len(),
-            results.variations.len(),
             main.arc_name(),
-            main.lean_deg
+            main.lean_deg,
+            results.other_sets.len(),
+            results.variations.len(),
         )
     };
     format!(
@@ -203,7 +206,7 @@ fn reproducing_settings(results: &Reproduction) -> String {
     };
     format!(
         "Of the {all} triples of a scan, a u and a least share of partners in the tables of § 3.2 below, {} give both means of Fig. 12 and 13 within {TOLERANCE_DEG}°: {list}. \
-         The one that comes nearest was picked from the table and not before; the changes below, other peppers among them, show how much of it is luck.",
+         The one that comes nearest was picked from the table and not before; the other sets of peppers below show how much of it is luck.",
         found.len()
     )
 }

@@ -37,6 +37,10 @@ pub(in crate::ui) struct Data {
     pub(in crate::ui) distance_means: Vec<[f64; 2]>,
     /// Against the lead in percent.
     pub(in crate::ui) by_lead: Vec<Mark>,
+    /// Against the true axis' lean out of the plane across the view ray, in degrees.
+    pub(in crate::ui) by_lean: Vec<Mark>,
+    /// Against the share of the surface that was seen, in percent.
+    pub(in crate::ui) by_coverage: Vec<Mark>,
     /// A unit a cloud, stacked by their errors: x is the bin's middle, y the unit's lower edge.
     pub(in crate::ui) histogram: Vec<Mark>,
     /// The width of the histogram's bins in degrees.
@@ -74,7 +78,7 @@ impl Data {
         let count = data.bars.len();
         let sum: f64 = data.bars.iter().map(|bar| bar.y).sum();
         data.mean_deg = (count > 0).then(|| sum / count as f64);
-        let against = |value: fn(&TableRow) -> Option<f64>| {
+        let against = |value: &dyn Fn(&TableRow) -> Option<f64>| {
             let marks = data.bars.iter();
             marks
                 .filter_map(|bar| {
@@ -85,8 +89,10 @@ impl Data {
                 })
                 .collect::<Vec<_>>()
         };
-        data.by_distance = against(TableRow::distance_cm);
-        data.by_lead = against(TableRow::lead_percent);
+        data.by_distance = against(&TableRow::distance_cm);
+        data.by_lead = against(&TableRow::lead_percent);
+        data.by_lean = against(&|row| row.lean_deg(folder.against));
+        data.by_coverage = against(&TableRow::coverage_percent);
         data.distance_means = means(&data.by_distance);
         (data.histogram, data.bin_deg) = histogram(&data.bars);
         data

@@ -4,11 +4,11 @@ mod data;
 mod guides;
 
 use egui::{Align2, Color32, Id, Key, Response, RichText, Role, Stroke, Ui, WidgetInfo, vec2};
-use egui_plot::{Bar, BarChart, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points};
+use egui_plot::{Bar, BarChart, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points};
 
 use super::{PanelRequest, bar};
 use crate::app::{Command, State};
-use crate::ui::widgets::controls::{small, warning_color};
+use crate::ui::widgets::controls::{hint, small, warning_color};
 use data::{DISTANCE_BIN_CM, Data, FIG_8_DEG, FIG_12_DEG, FIG_13_DEG, Mark};
 use guides::Guides;
 
@@ -20,10 +20,19 @@ enum Chart {
     Histogram,
     Distance,
     Lead,
+    Lean,
+    Coverage,
 }
 
 impl Chart {
-    const ALL: [Self; 4] = [Self::Clouds, Self::Histogram, Self::Distance, Self::Lead];
+    const ALL: [Self; 6] = [
+        Self::Clouds,
+        Self::Histogram,
+        Self::Distance,
+        Self::Lead,
+        Self::Lean,
+        Self::Coverage,
+    ];
 
     fn title(self) -> &'static str {
         match self {
@@ -31,6 +40,8 @@ impl Chart {
             Self::Histogram => "Histogram",
             Self::Distance => "By distance",
             Self::Lead => "By lead",
+            Self::Lean => "By lean",
+            Self::Coverage => "By coverage",
         }
     }
 
@@ -46,6 +57,13 @@ impl Chart {
             Self::Lead => {
                 "The error against the winner's lead over the runner-up: is an ambiguous fruit a missed one?"
             }
+            Self::Lean => {
+                "The error against the lean of the reference axis out of the plane across the line of sight, below which no error can \
+                 be (Eq. 16)"
+            }
+            Self::Coverage => {
+                "The error against the share of the surface that the camera saw, which the truth of a simulated cloud tells"
+            }
         }
     }
 
@@ -58,6 +76,33 @@ impl Chart {
                 "Lead of the best plane over the runner-up (% of its score)",
                 "Error of the axis (°)",
             ),
+            Self::Lean => ("Lean of the reference axis (°)", "Error of the axis (°)"),
+            Self::Coverage => ("Surface seen (%)", "Error of the axis (°)"),
+        }
+    }
+}
+
+impl Chart {
+    /// The clouds that it shows.
+    fn marks(self, data: &Data) -> &[Mark] {
+        match self {
+            Self::Clouds => &data.bars,
+            Self::Histogram => &data.histogram,
+            Self::Distance => &data.by_distance,
+            Self::Lead => &data.by_lead,
+            Self::Lean => &data.by_lean,
+            Self::Coverage => &data.by_coverage,
+        }
+    }
+
+    /// The reason why it shows no cloud, if none has its value.
+    fn missing(self) -> &'static str {
+        match self {
+            Self::Lean => "None of these clouds has a reference axis whose lean is known.",
+            Self::Coverage => {
+                "None of these clouds says how much of its surface was seen; the truths of simulated clouds do."
+            }
+            _ => "None of these clouds has this value.",
         }
     }
 }
@@ -93,6 +138,8 @@ pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     }
     if data.bars.is_empty() {
         bar::nothing_yet(ui, state);
+    } else if chart.marks(&data).is_empty() {
+        hint(ui, chart.missing());
     } else {
         chosen = plot(ui, state, chart, &data).or(chosen);
     }
@@ -161,7 +208,9 @@ fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> 
             Chart::Clouds => clouds(&mut guides, data, current, state),
             Chart::Histogram => histogram(guides.plot, data, current, ground),
             Chart::Distance => distance(&mut guides, data, current),
-            Chart::Lead => lead(&mut guides, data, current),
+            Chart::Lead => by_value(&mut guides, &data.by_lead, data.mean_deg, current),
+            Chart::Lean => lean(&mut guides, data, current),
+            Chart::Coverage => by_value(&mut guides, &data.by_coverage, data.mean_deg, current),
         }
         guides.texts
     });
@@ -174,7 +223,8 @@ fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> 
             .mean_deg
             .map(|m| format!(", {m:.1}° in the mean"))
             .unwrap_or_default();
-        let label = format!("Chart: {}, {} clouds{mean}", chart.title(), data.bars.len());
+        let count = chart.marks(data).len();
+        let label = format!("Chart: {}, {count} clouds{mean}", chart.title());
         WidgetInfo::labeled(Role::Image, true, label)
     });
     let pointed = response.hover_pos().and_then(|at| {
@@ -182,8 +232,7 @@ fn plot(ui: &mut Ui, state: &State, chart: Chart, data: &Data) -> Option<usize> 
         match chart {
             Chart::Clouds => slot_at(data, value),
             Chart::Histogram => unit_at(data, value),
-            Chart::Distance => nearest(&data.by_distance, &answer.transform, at),
-            Chart::Lead => nearest(&data.by_lead, &answer.transform, at),
+            _ => nearest(chart.marks(data), &answer.transform, at),
         }
     });
     let mark = pointed?;
@@ -203,6 +252,9 @@ fn explain(response: &Response, state: &State, place: usize) {
     let facts = [
         row.lead_percent().map(|lead| format!("lead {lead:.1} %")),
         row.distance_cm().map(|distance| format!("{distance:.0} cm away")),
+        row.lean_deg(state.many.against)
+            .map(|lean| format!("leaning {lean:.0}°")),
+        row.coverage_percent().map(|seen| format!("{seen:.0} % seen")),
     ];
     let stale = if row.is_stale {
         "Of other parameters than those in force."
@@ -334,9 +386,24 @@ fn distance(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>) {
     guides.at(FIG_8_DEG, "6.5° in Fig. 8, simulated", Align2::LEFT_TOP);
 }
 
-fn lead(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>) {
-    scatter(guides.plot, &data.by_lead, current);
-    if let Some(mean) = data.mean_deg {
+/// Draws the clouds over a value, and the mean of all errors.
+fn by_value(guides: &mut Guides<'_, '_>, marks: &[Mark], mean_deg: Option<f64>, current: Option<usize>) {
+    scatter(guides.plot, marks, current);
+    if let Some(mean) = mean_deg {
         guides.mean(mean);
     }
+}
+
+/// Draws the clouds over the lean, and the line below which Eq. 16 allows no error.
+fn lean(guides: &mut Guides<'_, '_>, data: &Data, current: Option<usize>) {
+    let farthest = data.by_lean.iter().map(|mark| mark.x).fold(0.0, f64::max);
+    let line = Line::new(
+        "least error",
+        PlotPoints::from(vec![[0.0, 0.0], [farthest, farthest]]),
+    );
+    let line = line
+        .color(guides.color.gamma_multiply(0.75))
+        .style(LineStyle::dashed_dense());
+    guides.plot.line(line.width(1.5).allow_hover(false));
+    by_value(guides, &data.by_lean, data.mean_deg, current);
 }
