@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
 
+use super::estimators::EstimatorsCommand;
 use super::many::commands::ManyCommand;
 use super::peduncle::commands::PeduncleCommand;
 use super::samples::Sample;
@@ -100,6 +101,8 @@ pub enum Command {
     SaveCloud(PathBuf),
     /// Put the fruit center somewhere, in the file's unit and frame.
     MoveCenter(DVec3),
+    /// Something about the estimates of the axis.
+    Estimators(EstimatorsCommand),
     /// Pick the peduncle.
     Peduncle(PeduncleCommand),
 

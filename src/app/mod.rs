@@ -5,7 +5,7 @@
 //! frame ───▶ App::update ─▶ each part's update ─▶ jobs of analyses and looks ─▶ scene ─▶ what is drawn
 //! ```
 //!
-//! The parts are rooms of their own: the [`inspector`] of one cloud, its [`peduncle`], its [`true_axes`], and the
+//! The parts are rooms of their own: the [`inspector`] of one cloud, its estimates by other [`estimators`], its [`peduncle`], its [`true_axes`], and the
 //! [`many`] open clouds together. Each has commands, jobs, and a part of the [`State`]; [`App`] lends them what they
 //! share, in turn.
 //!
@@ -15,6 +15,7 @@
 mod clouds;
 mod command;
 mod context;
+pub mod estimators;
 pub mod inspector;
 pub mod many;
 pub mod peduncle;
@@ -37,6 +38,7 @@ use crate::render::{Camera, Viewport};
 use crate::undo::History;
 
 use context::{Context, Step};
+use estimators::Estimators;
 use inspector::Inspector;
 use many::{Many, ManyState};
 use peduncle::PeduncleTools;
@@ -44,6 +46,7 @@ use true_axes::TrueAxes;
 use workers::{Pool, Queue, Repaint};
 
 pub use command::Command;
+pub use estimators::{EstimatorsCommand, EstimatorsState};
 pub use inspector::command_line::{command_line, quoted};
 pub use inspector::image::page;
 pub use inspector::navigate::{default_camera, dragged};
@@ -62,6 +65,7 @@ pub use true_axes::{TrueAxesCommand, TrueAxesState};
 pub struct App {
     context: Context,
     inspector: Inspector,
+    estimators: Estimators,
     peduncle: PeduncleTools,
     true_axes: TrueAxes,
     many: Many,
@@ -84,6 +88,7 @@ impl App {
         Ok(Self {
             context: Context::new(state, pool),
             inspector: Inspector::new(pool),
+            estimators: Estimators::new(pool),
             peduncle: PeduncleTools::new(pool),
             true_axes: TrueAxes::new(pool),
             many: Many::new(pool),
@@ -132,6 +137,7 @@ impl App {
             Command::Dismiss(id) => cx.state.messages.retain(|message| message.id != id),
             Command::Say { is_error, text } => cx.say(is_error, text),
 
+            Command::Estimators(command) => self.estimators.apply(command, cx),
             Command::Peduncle(command) => self.peduncle.apply(command, cx),
             Command::Many(command) => self.many.apply(command, cx),
             Command::TrueAxes(command) => self.true_axes.apply(command, cx),
@@ -159,6 +165,7 @@ impl App {
         self.update_simulated();
         let cx = &mut self.context;
         self.inspector.update(elapsed, cx);
+        self.estimators.update(cx);
         self.true_axes.update(cx);
         self.inspector.update_view(cx);
         self.peduncle.update(cx);
@@ -177,6 +184,7 @@ impl App {
     /// Whether somebody waits for a result: the background's work on all clouds does not count.
     pub fn is_current_busy(&self) -> bool {
         self.inspector.is_busy()
+            || self.estimators.is_busy()
             || self.peduncle.is_busy()
             || self.true_axes.is_busy()
             || self.saves.is_busy()

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::estimators::EstimatorsState;
 use super::peduncle::state::PeduncleState;
 use super::simulator::SimulatorState;
 use super::tool::Tool;
@@ -120,6 +121,8 @@ pub struct State {
     pub viewport: Viewport,
     /// Physical pixels a logical one.
     pub pixels_per_point: f32,
+    /// The estimates of the axis.
+    pub estimators: EstimatorsState,
     /// The tool of the left mouse button.
     pub tool: Tool,
     /// The simulated pepper.
@@ -170,6 +173,7 @@ impl State {
             camera: Camera::looking_at(glam::DVec3::ZERO, glam::DVec3::Z, glam::DVec3::NEG_Y),
             viewport: Viewport::new(800.0, 600.0),
             pixels_per_point: 1.0,
+            estimators: EstimatorsState::default(),
             tool: Tool::Navigate,
             simulator: SimulatorState::default(),
             peduncle: PeduncleState::default(),

@@ -71,7 +71,10 @@ impl Canvas {
     }
 
     pub(super) fn into_svg(self) -> String {
-        SvgBackend::new().with_pretty(true).render_scene(&self.scene)
+        let svg = SvgBackend::new().with_pretty(true).render_scene(&self.scene);
+        // Without a view box, a page that shows the figure smaller than it is cuts it off instead of scaling it.
+        let view_box = format!("<svg viewBox=\"0 0 {} {}\" ", self.scene.width, self.scene.height);
+        svg.replacen("<svg ", &view_box, 1)
     }
 
     /// One line of text whose baseline is at `y`.

@@ -348,3 +348,21 @@ pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
         .ok_or("expected two numbers with a comma between them")?;
     Ok([number(a)?, number(b)?])
 }
+
+/// The value of an option that takes `best`, which is `None`. Under this name, clap does not take it for an option
+/// that may be missing.
+pub(super) type OrBest<T> = Option<T>;
+
+pub(super) fn plane_choice(text: &str) -> Result<OrBest<[usize; 2]>, String> {
+    if text == "best" {
+        return Ok(None);
+    }
+    let numbers: Vec<usize> = text
+        .split(',')
+        .map(|n| n.trim().parse().map_err(|_| "expected best, or two numbers G,H"))
+        .collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [g, h] => Ok(Some([g, h])),
+        _ => Err("expected best, or two numbers G,H".into()),
+    }
+}

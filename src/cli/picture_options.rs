@@ -6,7 +6,7 @@ use axiscope::view::{Coloring, Drawing, Overlays, Style, Theme, ViewPreset};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::options::positive;
+use super::options::{OrBest, plane_choice, positive};
 
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Picture")]
@@ -107,23 +107,5 @@ fn point_size(text: &str) -> Result<f64, String> {
     match positive(text)? {
         px if px <= 100.0 => Ok(px),
         _ => Err("expected at most 100 pixels".into()),
-    }
-}
-
-/// The value of an option that takes `best`, which is `None`. Under this name, clap does not take it for an option
-/// that may be missing.
-type OrBest<T> = Option<T>;
-
-fn plane_choice(text: &str) -> Result<OrBest<[usize; 2]>, String> {
-    if text == "best" {
-        return Ok(None);
-    }
-    let numbers: Vec<usize> = text
-        .split(',')
-        .map(|n| n.trim().parse().map_err(|_| "expected best, or two numbers G,H"))
-        .collect::<Result<_, _>>()?;
-    match numbers[..] {
-        [g, h] => Ok(Some([g, h])),
-        _ => Err("expected best, or two numbers G,H".into()),
     }
 }

@@ -49,7 +49,7 @@ pub(super) fn estimate(
     analysis: &Analysis,
     watch: &dyn Watch,
 ) -> Result<Estimate, EstimateError> {
-    let neighbors = Neighbors::new(&surface.points).ok_or(EstimateError::NoFit)?;
+    let neighbors = Neighbors::new_watched(&surface.points, watch)?.ok_or(EstimateError::NoFit)?;
     let refinement = Refinement {
         surface,
         neighbors: &neighbors,

@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::Examination;
 use crate::estimate::{Estimate, EstimateError, EstimateSettings, Estimator, Occlusion, Surface, estimate};
+use crate::fruit::Fruit;
 use crate::geometry::statistical_inliers;
+use crate::method::Params;
 use crate::parallel::{Cancelled, Watch};
 
 /// Prepares the surface of an examined fruit for estimators: its points without the peduncle, as far as that is known,
@@ -13,8 +15,15 @@ use crate::parallel::{Cancelled, Watch};
 /// # Errors
 /// Returns an error if the points are no surface of a fruit, or the watch cancels the work.
 pub fn surface_of(examined: &Examination, watch: &dyn Watch) -> Result<Surface, EstimateError> {
-    let params = &examined.analysis.params;
-    let mut body = examined.fruit.body();
+    surface_of_fruit(&examined.fruit, &examined.analysis.params, watch)
+}
+
+/// Prepares the surface of a fruit for estimators, as [`surface_of`] does, for parameters in the file's unit.
+///
+/// # Errors
+/// Returns an error if the points are no surface of a fruit, or the watch cancels the work.
+pub fn surface_of_fruit(fruit: &Fruit, params: &Params, watch: &dyn Watch) -> Result<Surface, EstimateError> {
+    let mut body = fruit.body();
     if let Some(outliers) = params.filters.outliers {
         let inliers = statistical_inliers(body.positions(), outliers.neighbors, outliers.std_ratio, watch)?;
         body = body.select(&inliers);

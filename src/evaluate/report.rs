@@ -4,11 +4,14 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{ErrorBreakdown, Examination, TruthChoice, peduncle_disagreement_deg, reference_of};
+use super::point_report::PointReport;
+use super::{ErrorBreakdown, Examination, PointRow, TruthChoice, peduncle_disagreement_deg, reference_of};
 use crate::estimate::{Alternative, Estimate, Occlusion};
 use crate::fruit::Request;
 use crate::geometry::Unit;
-use crate::method::{Aggregation, AxisEstimate, CenterMethod, NormalSource, Params, axis_error_rad};
+use crate::method::{
+    Aggregation, AxisEstimate, Candidate, CenterMethod, NormalSource, Params, axis_error_rad,
+};
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "axiscope.analysis/1";
@@ -31,6 +34,7 @@ pub struct AnalysisReport {
     timings_ms: Timings,
     prior: String,
     estimates: Vec<EstimateReport>,
+    point: Option<PointReport>,
 }
 
 /// The durations of the stages in milliseconds.
@@ -200,7 +204,15 @@ impl AnalysisReport {
                 .iter()
                 .map(|timed| EstimateReport::new(timed, references))
                 .collect(),
+            point: None,
         }
+    }
+
+    /// Adds the steps of one point under the plane of `candidate`.
+    #[must_use]
+    pub fn with_point(mut self, candidate: &Candidate, row: &PointRow) -> Self {
+        self.point = Some(PointReport::new(candidate, row));
+        self
     }
 }
 

@@ -120,6 +120,20 @@ impl Pending {
     }
 }
 
+/// Returns the error in plain words: `tempfile` adds the name of a file that nobody asked for.
+fn without_its_name(error: io::Error) -> io::Error {
+    use io::ErrorKind::{
+        InvalidFilename, NotADirectory, NotFound, PermissionDenied, QuotaExceeded, ReadOnlyFilesystem,
+        StorageFull,
+    };
+    match error.kind() {
+        NotFound => io::Error::new(NotFound, "there is no such folder"),
+        kind @ (InvalidFilename | NotADirectory | PermissionDenied | QuotaExceeded | ReadOnlyFilesystem
+        | StorageFull) => kind.into(),
+        _ => error,
+    }
+}
+
 /// Creates an empty file that is deleted unless it gets a name. Its own is short, since the final one may be as long as
 /// names can be; and its permissions are those of any new file, not those of a secret one.
 fn empty_file_in(folder: &Path) -> io::Result<NamedTempFile> {
@@ -129,5 +143,5 @@ fn empty_file_in(folder: &Path) -> io::Result<NamedTempFile> {
     let everyone = std::os::unix::fs::PermissionsExt::from_mode(0o666);
     #[cfg(unix)]
     builder.permissions(everyone);
-    builder.tempfile_in(folder)
+    builder.tempfile_in(folder).map_err(without_its_name)
 }

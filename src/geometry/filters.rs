@@ -20,7 +20,7 @@ pub fn statistical_inliers(
     std_ratio: f64,
     watch: &dyn Watch,
 ) -> Result<Vec<usize>, Cancelled> {
-    let Some(index) = Neighbors::new(points) else {
+    let Some(index) = Neighbors::new_watched(points, watch)? else {
         return Ok(Vec::new());
     };
     let with_itself = neighbors.saturating_add(1);

@@ -31,7 +31,7 @@ pub fn estimate_normals(
     viewpoint: DVec3,
     watch: &dyn Watch,
 ) -> Result<Vec<Option<DVec3>>, Cancelled> {
-    let Some(neighbors) = Neighbors::new(points) else {
+    let Some(neighbors) = Neighbors::new_watched(points, watch)? else {
         return Ok(Vec::new());
     };
     // Neighbors of close places lie in the same memory.

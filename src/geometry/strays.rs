@@ -50,7 +50,7 @@ pub(crate) fn strays_watched(points: &[DVec3], watch: &dyn Watch) -> Result<Vec<
     };
     let mut cells: FxHashMap<IVec3, Cell> = FxHashMap::default();
     for piece in points.chunks(PIECE) {
-        go_on(watch)?;
+        watch.go_on()?;
         for cell in piece.iter().filter_map(cell) {
             cells.entry(cell).or_default().points += 1;
         }
@@ -60,7 +60,7 @@ pub(crate) fn strays_watched(points: &[DVec3], watch: &dyn Watch) -> Result<Vec<
     let in_bulk = |p: &DVec3| cell(p).is_some_and(|cell| cells.get(&cell).is_some_and(|c| c.in_bulk));
     let mut strays = Vec::new();
     for from in (0..points.len()).step_by(PIECE) {
-        go_on(watch)?;
+        watch.go_on()?;
         let piece = from..points.len().min(from + PIECE);
         strays.extend(piece.filter(|&i| far(&points[i]) && !in_bulk(&points[i])));
     }
@@ -75,14 +75,6 @@ pub(crate) fn without(strays: &[usize], count: usize) -> impl Iterator<Item = us
 
 /// Points between two questions to the watch: some hundredths of a second.
 const PIECE: usize = 1 << 20;
-
-fn go_on(watch: &dyn Watch) -> Result<(), Cancelled> {
-    if watch.is_cancelled() {
-        Err(Cancelled)
-    } else {
-        Ok(())
-    }
-}
 
 /// The points of one cell.
 #[derive(Debug, Clone, Copy, Default)]
@@ -122,7 +114,7 @@ fn inner_half(points: &[DVec3], watch: &dyn Watch) -> Result<Option<(DVec3, f64)
     let mut column: Vec<f64> = Vec::with_capacity(points.len());
     // The median of no values is zero, and so is the radius then.
     let mut median = |values: &mut dyn Iterator<Item = f64>| {
-        go_on(watch)?;
+        watch.go_on()?;
         column.clear();
         column.extend(values);
         let rank = column.len().saturating_sub(1) / 2;

@@ -22,14 +22,7 @@ pub(crate) fn voxel_grid_watched(cloud: &Cloud, edge: f64, watch: &dyn Watch) ->
     let (order, starts) = by_cell(points, edge, watch)?;
     let mut voxels: Vec<&[usize]> = starts.windows(2).map(|w| &order[w[0]..w[1]]).collect();
     voxels.sort_unstable_by_key(|members| members[0]);
-    let go_on = || {
-        if watch.is_cancelled() {
-            Err(Cancelled)
-        } else {
-            Ok(())
-        }
-    };
-    go_on()?;
+    watch.go_on()?;
 
     let mean = |members: &[usize]| {
         let mean = members.iter().map(|&i| points[i]).sum::<DVec3>() / members.len() as f64;
@@ -41,12 +34,12 @@ pub(crate) fn voxel_grid_watched(cloud: &Cloud, edge: f64, watch: &dyn Watch) ->
         }
     };
     let filtered = Cloud::new(voxels.iter().map(|&m| mean(m)).collect());
-    go_on()?;
+    watch.go_on()?;
     let normals = cloud.normals().map(|normals| {
         let mean = |m: &&[usize]| m.iter().map(|&i| normals[i]).sum::<Vec3>().normalize_or_zero();
         voxels.iter().map(mean).collect()
     });
-    go_on()?;
+    watch.go_on()?;
     let colors = cloud
         .colors()
         .map(|colors| voxels.iter().map(|m| mean_color(colors, m)).collect());
@@ -92,9 +85,12 @@ pub(crate) fn by_cell(
     watch: &dyn Watch,
 ) -> Result<(Vec<usize>, Vec<usize>), Cancelled> {
     let (mut low, mut high) = (I64Vec3::MAX, I64Vec3::MIN);
-    for &p in points {
-        let cell = cell(p, edge);
-        (low, high) = (low.min(cell), high.max(cell));
+    for piece in points.chunks(1 << 20) {
+        watch.go_on()?;
+        for &p in piece {
+            let cell = cell(p, edge);
+            (low, high) = (low.min(cell), high.max(cell));
+        }
     }
     // Three numbers in one where they fit: a third of the memory and of the time.
     let fits = |e: usize| high[e].checked_sub(low[e]).is_some_and(|range| range < 1 << BITS);
@@ -154,9 +150,7 @@ pub fn voxel_edge_for(points: &[DVec3], most: usize, watch: &dyn Watch) -> Resul
     let mut edge = extent / aim.sqrt();
     let (mut too_fine, mut enough): (f64, Option<f64>) = (0.0, None);
     for tried in 0..TRIES {
-        if watch.is_cancelled() {
-            return Err(Cancelled);
-        }
+        watch.go_on()?;
         watch.advanced(tried, TRIES);
         let count = occupied(points, edge, most.saturating_mul(2), watch)?;
         if count <= most {
@@ -195,8 +189,8 @@ fn occupied(points: &[DVec3], edge: f64, most: usize, watch: &dyn Watch) -> Resu
     let mut count = 0;
     for (i, &p) in points.iter().enumerate() {
         // Some hundredths of a second.
-        if i % (1 << 20) == 0 && watch.is_cancelled() {
-            return Err(Cancelled);
+        if i % (1 << 20) == 0 {
+            watch.go_on()?;
         }
         let c = cell(p, edge).to_array();
         let mixed = c.iter().fold(1u64, |h, &x| {

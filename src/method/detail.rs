@@ -80,7 +80,7 @@ pub fn plane_detail(
         })
         .collect();
     // A surface of more points than the search tree can hold has no partners.
-    if surface.neighbors().is_some() {
+    if surface.neighbors_watched(watch)?.is_some() {
         let pieces = map_pieces(surface.len(), PIECE, watch, |range| {
             let list = PartnerList {
                 unit_in_cm: unit.in_cm(),

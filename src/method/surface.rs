@@ -186,6 +186,19 @@ impl Surface {
             .as_deref()
     }
 
+    /// [`Surface::neighbors`], whose building is called off by a watch.
+    ///
+    /// # Errors
+    /// Returns [`Cancelled`] if the watch cancels the work.
+    pub fn neighbors_watched(&self, watch: &dyn Watch) -> Result<Option<&Neighbors>, Cancelled> {
+        if self.neighbors.get().is_none() {
+            let built = Neighbors::new_watched(&self.points, watch)?.map(Arc::new);
+            // Whoever else has built it meanwhile has built the same.
+            let _ = self.neighbors.set(built);
+        }
+        Ok(self.neighbors())
+    }
+
     /// The number of normals that face away from `viewpoint`, for which Eq. 11 fails.
     pub fn facing_away(&self, viewpoint: DVec3) -> usize {
         let faces_away = |(p, n): (&DVec3, &DVec3)| n.dot(viewpoint - *p) < 0.0;

@@ -75,6 +75,7 @@ pub fn terms_of_planes(
     viewpoint: DVec3,
     watch: &dyn Watch,
 ) -> Result<Vec<PlaneTerm>, Cancelled> {
+    surface.neighbors_watched(watch)?;
     let Some(ordered) = OrderedSurface::new(surface) else {
         return Ok(vec![PlaneTerm::default(); planes.len()]);
     };

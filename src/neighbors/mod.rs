@@ -57,10 +57,14 @@ use exact::{Candidate, ExactBoxes};
 use glam::DVec3;
 use pulp::Simd;
 
+use crate::parallel::{Cancelled, PartOf, Watch};
 pub(crate) use batch::{BatchSearch, BlockResult};
 pub(crate) use lanes::BLOCK;
 use order::spatial_order;
 use tree::{LEAF, Tree};
+
+/// Points between two questions to the watch while the index is built: some milliseconds.
+const PIECE: u32 = 1 << 16;
 
 /// One place in space and the points that lie exactly there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,12 +97,27 @@ pub struct Neighbors {
 impl Neighbors {
     /// Indexes `points`, which must be finite. `None` if there are none, or more than [`u32::MAX`].
     pub fn new(points: &[DVec3]) -> Option<Self> {
+        // Without a watch nothing is called off.
+        Self::new_watched(points, &()).unwrap_or_default()
+    }
+
+    /// [`Neighbors::new`], called off by a watch.
+    ///
+    /// # Errors
+    /// Returns [`Cancelled`] if the watch cancels the work.
+    pub fn new_watched(points: &[DVec3], watch: &dyn Watch) -> Result<Option<Self>, Cancelled> {
         if points.is_empty() || u32::try_from(points.len()).is_err() {
-            return None;
+            return Ok(None);
         }
-        let (lowest, place_of) = distinct_places(points);
+        // Its share of longer work is not told.
+        let watch = &PartOf {
+            watch,
+            pieces: 0..0,
+            total: 1,
+        };
+        let (lowest, place_of) = distinct_places(points, watch)?;
         let places: Vec<DVec3> = lowest.iter().map(|&i| points[i as usize]).collect();
-        let place_order = spatial_order(&places);
+        let place_order = spatial_order(&places, watch)?;
         let in_order: Vec<DVec3> = place_order.iter().map(|&place| places[place as usize]).collect();
         let first: Vec<u32> = place_order.iter().map(|&place| lowest[place as usize]).collect();
         let (mut start, mut order): (Vec<u32>, Vec<u32>) =
@@ -110,18 +129,20 @@ impl Neighbors {
             }
             let position = |&i: &u32| position[place_of[i as usize] as usize];
             order = (0..points.len() as u32).collect();
+            watch.go_on()?;
             order.sort_by_key(position);
+            watch.go_on()?;
             for at in &mut start {
                 *at = order.partition_point(|i| position(i) < *at) as u32;
             }
         }
-        Some(Self {
-            tree: Tree::new(&in_order),
+        Ok(Some(Self {
+            tree: Tree::new(&in_order, watch)?,
             first,
             start,
             order,
             exact_boxes: OnceLock::new(),
-        })
+        }))
     }
 
     /// The number of distinct places that the points occupy.
@@ -183,12 +204,15 @@ impl Neighbors {
 }
 
 /// The lowest point index of each distinct place, ascending, and the place of each point.
-fn distinct_places(points: &[DVec3]) -> (Vec<u32>, Vec<u32>) {
+fn distinct_places(points: &[DVec3], watch: &dyn Watch) -> Result<(Vec<u32>, Vec<u32>), Cancelled> {
     let mask = (2 * points.len()).next_power_of_two() - 1;
     // A hash table: each place is in the first slot from its hash on that was free.
     let mut table = vec![u32::MAX; mask + 1];
     let (mut lowest, mut place_of) = (Vec::<u32>::new(), Vec::with_capacity(points.len()));
     for (i, &p) in (0..).zip(points) {
+        if i % PIECE == 0 {
+            watch.go_on()?;
+        }
         // Adding zero turns -0.0 into 0.0, so that equal coordinates have equal bits.
         let mut slot = (p + 0.0).to_array().iter().fold(0, |hash, x| {
             let mixed = (hash ^ x.to_bits()).wrapping_mul(0x9E37_79B9_7F4A_7C15);
@@ -204,7 +228,7 @@ fn distinct_places(points: &[DVec3]) -> (Vec<u32>, Vec<u32>) {
         }
         place_of.push(*place);
     }
-    (lowest, place_of)
+    Ok((lowest, place_of))
 }
 
 /// [`Neighbors::nearest_of_each`] by the widest vector instructions that this machine has.

@@ -7,7 +7,7 @@ use glam::DVec3;
 use pulp::Scalar;
 
 use super::boxes::{BoxGroup, OrientedBox, WIDTH};
-use crate::parallel::map_pieces;
+use crate::parallel::{Cancelled, Watch, map_pieces};
 
 /// Points in a leaf.
 pub(super) const LEAF: usize = 32;
@@ -68,7 +68,7 @@ pub(super) struct Tree {
 
 impl Tree {
     /// Builds the tree on `points`, of which there must be some, in the order in which it holds them.
-    pub(super) fn new(points: &[DVec3]) -> Self {
+    pub(super) fn new(points: &[DVec3], watch: &dyn Watch) -> Result<Self, Cancelled> {
         let (mut size, mut levels) = (LEAF, Vec::new());
         let mut leaves: Vec<Leaf> = Vec::new();
         let leaf = |(points, bounds): (&[DVec3], &OrientedBox)| Leaf::new(points, bounds);
@@ -78,7 +78,7 @@ impl Tree {
             let work = |range: Range<usize>| -> Vec<OrientedBox> {
                 points[range].chunks(size).map(OrientedBox::around).collect()
             };
-            let boxes = map_pieces(points.len(), nodes * size, &(), work).unwrap_or_default();
+            let boxes = map_pieces(points.len(), nodes * size, watch, work)?;
             let boxes = boxes.concat();
             if size == LEAF {
                 leaves = points.chunks(LEAF).zip(&boxes).map(leaf).collect();
@@ -95,13 +95,14 @@ impl Tree {
         });
         let mut radii: Vec<f32> = leaves.iter().map(|leaf| leaf.radius).collect();
         let middle = radii.len() / 2;
-        Self {
+        watch.go_on()?;
+        Ok(Self {
             typical_radius: *radii.select_nth_unstable_by(middle, f32::total_cmp).1,
             leaves,
             exact: exact.collect(),
             levels,
             len: points.len(),
-        }
+        })
     }
 
     /// The positions of a leaf's points in the tree's order.

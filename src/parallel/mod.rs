@@ -31,9 +31,7 @@ pub fn map_pieces<T: Send>(
     let pieces = len.div_ceil(piece);
     let done = AtomicUsize::new(0);
     let one = |i: usize| {
-        if watch.is_cancelled() {
-            return Err(Cancelled);
-        }
+        watch.go_on()?;
         let result = work(i * piece..((i + 1) * piece).min(len));
         watch.advanced(done.fetch_add(1, Ordering::Relaxed) + 1, pieces);
         Ok(result)
@@ -110,9 +108,7 @@ pub(crate) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
 pub(crate) fn sort_unstable<T: Ord + Send>(values: &mut [T], watch: &dyn Watch) -> Result<(), Cancelled> {
     /// The most values that are sorted without a question.
     const PIECE: usize = 1 << 20;
-    if watch.is_cancelled() {
-        return Err(Cancelled);
-    }
+    watch.go_on()?;
     if values.len() > PIECE {
         // Halves can be sorted one after the other, and the work called off in between.
         let middle = values.len() / 2;

@@ -13,6 +13,18 @@ pub trait Watch: Sync {
         false
     }
 
+    /// Returns [`Cancelled`] if the work is to stop.
+    ///
+    /// # Errors
+    /// Returns an error where [`Watch::is_cancelled`] is true.
+    fn go_on(&self) -> Result<(), Cancelled> {
+        if self.is_cancelled() {
+            Err(Cancelled)
+        } else {
+            Ok(())
+        }
+    }
+
     /// Reports that `done` of `total` pieces are finished. Pieces may finish out of order, so a lower number can
     /// follow a higher one.
     fn advanced(&self, _done: usize, _total: usize) {}

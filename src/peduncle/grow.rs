@@ -101,7 +101,7 @@ fn within(
     let (sources, asking): (Vec<usize>, Vec<usize>) =
         (0..points.len()).filter(is_near).partition(|&i| mask[i] == of);
     let places: Vec<DVec3> = sources.iter().map(|&i| points[i]).collect();
-    let Some(index) = Neighbors::new(&places) else {
+    let Some(index) = Neighbors::new_watched(&places, watch)? else {
         return Ok(Vec::new());
     };
     let found = map_pieces(asking.len(), PIECE, watch, |range| {

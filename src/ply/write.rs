@@ -59,7 +59,7 @@ impl Precision {
 }
 
 /// The options of [`write()`]. The default is binary, in single precision, without a unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct WriteOptions<'a> {
     /// The unit to state in the header, as a comment that [`read()`](super::read) understands.
     pub unit: Option<Unit>,
@@ -69,6 +69,9 @@ pub struct WriteOptions<'a> {
     pub encoding: Encoding,
     /// The precision of the positions.
     pub precision: Precision,
+    /// Further columns of single precision after the cloud's own, which point cloud programs show as scalar fields.
+    /// Each has a name without spaces and a value a point; missing values are NaN, as those programs have it.
+    pub scalars: &'a [(&'a str, &'a [f32])],
 }
 
 /// The reason why a cloud was not written, or not to its end.
@@ -83,18 +86,32 @@ pub enum WriteError {
         /// The index of the first such point.
         point: usize,
     },
+    /// A further column has another number of values than the cloud has points. Nothing was written.
+    #[error("the column {name} has {values} values for {points} points")]
+    UnequalColumn {
+        /// The name of the column.
+        name: String,
+        /// Its values.
+        values: usize,
+        /// Points of the cloud.
+        points: usize,
+    },
 }
 
 /// Writes a cloud as PLY: x y z, nx ny nz if it has normals, red green blue if it has colors (and alpha unless all are
-/// opaque), label if it has labels. The same cloud and options give the same bytes.
+/// opaque), label if it has labels, then the scalars of the options. The same cloud and options give the same bytes.
 ///
 /// The destination needs no buffer of its own: it receives some tens of kilobytes at a time.
 ///
 /// # Errors
 /// Returns an error if the destination fails, or if a position does not fit in the requested precision.
-pub fn write(mut out: impl Write, cloud: &Cloud, options: &WriteOptions<'_>) -> Result<(), WriteError> {
+pub fn write<'a>(
+    mut out: impl Write,
+    cloud: &'a Cloud,
+    options: &WriteOptions<'a>,
+) -> Result<(), WriteError> {
     const FLUSH_AT: usize = 1 << 16;
-    let columns = Columns::of(cloud, options.precision)?;
+    let columns = Columns::of(cloud, options)?;
     let mut buffer = header(cloud, &columns, options).into_bytes();
     for row in 0..cloud.len() {
         match options.encoding {
@@ -126,11 +143,20 @@ struct Columns<'a> {
     alpha: bool,
     labels: Option<&'a [i32]>,
     wide_labels: bool,
+    scalars: &'a [(&'a str, &'a [f32])],
 }
 
 impl<'a> Columns<'a> {
-    fn of(cloud: &'a Cloud, precision: Precision) -> Result<Self, WriteError> {
-        let double = precision == Precision::Double;
+    fn of(cloud: &'a Cloud, options: &WriteOptions<'a>) -> Result<Self, WriteError> {
+        let points = cloud.len();
+        if let Some((name, values)) = options.scalars.iter().find(|(_, values)| values.len() != points) {
+            return Err(WriteError::UnequalColumn {
+                name: (*name).to_owned(),
+                values: values.len(),
+                points,
+            });
+        }
+        let double = options.precision == Precision::Double;
         let too_large = |p: &DVec3| !double && !p.as_vec3().is_finite();
         if let Some(point) = cloud.positions().iter().position(too_large) {
             return Err(WriteError::TooLarge { point });
@@ -146,6 +172,7 @@ impl<'a> Columns<'a> {
                 .is_some_and(|colors| colors.iter().any(|&[.., alpha]| alpha != 255)),
             labels: cloud.labels(),
             wide_labels: cloud.labels().is_some_and(|labels| labels.iter().any(is_wide)),
+            scalars: options.scalars,
         })
     }
 
@@ -180,6 +207,9 @@ impl<'a> Columns<'a> {
                 _ => out.int(labels[row]),
             }
         }
+        for (_, values) in self.scalars {
+            out.float(values[row]);
+        }
     }
 }
 
@@ -210,6 +240,9 @@ fn header(cloud: &Cloud, columns: &Columns<'_>, options: &WriteOptions<'_>) -> S
     }
     if columns.labels.is_some() {
         declare(if columns.wide_labels { "int" } else { "uchar" }, &["label"]);
+    }
+    for (name, _) in columns.scalars {
+        declare("float", &[*name]);
     }
     lines.push("end_header\n".to_owned());
     lines.join("\n")

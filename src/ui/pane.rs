@@ -36,11 +36,13 @@ pub enum Pane {
     TrueAxes,
     /// The simulated pepper.
     Simulate,
+    /// The axis by several estimators.
+    Estimators,
 }
 
 impl Pane {
     /// All panes.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::View,
         Self::Clouds,
         Self::Parameters,
@@ -55,11 +57,12 @@ impl Pane {
         Self::Sweep,
         Self::TrueAxes,
         Self::Simulate,
+        Self::Estimators,
     ];
 
     /// Whether the pane has no tab until somebody asks for it.
     pub(in crate::ui) fn is_on_demand(self) -> bool {
-        self == Self::Simulate
+        matches!(self, Self::Simulate | Self::Estimators)
     }
 
     /// Whether a key brings the pane to the front.
@@ -87,6 +90,7 @@ impl Pane {
             Self::Sweep => "Sweep",
             Self::TrueAxes => "True axes",
             Self::Simulate => "Simulate",
+            Self::Estimators => "Estimators",
         }
     }
 }

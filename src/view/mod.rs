@@ -3,6 +3,7 @@
 //!
 //! All but pictures is plain data. A window and a picture without one show the same, since both are made here.
 
+mod body;
 mod caption;
 mod coloring;
 mod compose;
@@ -23,6 +24,7 @@ mod select;
 mod shown;
 mod style;
 
+pub use body::{BODY_AXIS_COLOR, BodyDrawing, BodyParts, Facet};
 pub use caption::{caption, grouped, lead_in_words};
 pub use coloring::{
     Colored, Coloring, ColoringError, Subject, color_bare, color_labels, color_points, round_step,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use crate::helpers::driving::{act, app, asset, settle, with_sample};
+use crate::helpers::driving::{act, app, asset, settle, with_sample, write_cloud};
 use axiscope::app::command_line;
 use axiscope::app::{App, Command, PlaneChoice, Sample, Session, SessionError, Source, Tool, quoted};
 use axiscope::fruit::Request;
@@ -638,15 +638,7 @@ fn write_ellipsoid(path: &std::path::Path, points: usize, center_cm: DVec3) {
         points,
         ..Default::default()
     };
-    let simulated = settings.simulate().expect("an ellipsoid");
-    let mut bytes = Vec::new();
-    axiscope::ply::write(
-        &mut bytes,
-        &simulated.cloud,
-        &axiscope::ply::WriteOptions::default(),
-    )
-    .expect("memory");
-    std::fs::write(path, bytes).expect("a file");
+    write_cloud(&settings.simulate().expect("an ellipsoid").cloud, path);
 }
 
 #[test]
@@ -694,7 +686,7 @@ fn a_whole_scan_is_shown_and_can_be_looked_at_from_where_the_eye_is() {
         center_cm: DVec3::new(0.0, 0.0, 60.0),
         ..Default::default()
     };
-    let mut simulated = settings.simulate().expect("an ellipsoid");
+    let simulated = settings.simulate().expect("an ellipsoid");
     // Both halves about the origin, where the viewpoint is.
     let mut points: Vec<DVec3> = simulated
         .cloud
@@ -703,15 +695,7 @@ fn a_whole_scan_is_shown_and_can_be_looked_at_from_where_the_eye_is() {
         .map(|p| *p - DVec3::Z * 60.0)
         .collect();
     points.extend(points.clone().iter().map(|p| -*p));
-    simulated.cloud = axiscope::geometry::Cloud::new(points);
-    let mut bytes = Vec::new();
-    axiscope::ply::write(
-        &mut bytes,
-        &simulated.cloud,
-        &axiscope::ply::WriteOptions::default(),
-    )
-    .expect("memory");
-    std::fs::write(&path, bytes).expect("a file");
+    write_cloud(&axiscope::geometry::Cloud::new(points), &path);
     let mut app = app();
     act(&mut app, Command::Open(vec![path]));
     assert!(app.state().is_viewpoint_inside && app.state().analysis().is_none());

@@ -3,6 +3,8 @@
 #[path = "../helpers/mod.rs"]
 mod helpers;
 
+mod damaged_sessions;
+mod estimators;
 mod inspector;
 mod many;
 mod many_tags;

@@ -94,7 +94,7 @@ proptest! {
         // A comment that happens to state a unit is one.
         let comments: Vec<String> = comments.iter().map(|comment| format!("- {}", comment.replace(['\n', '\r'], "\n- "))).collect();
         for encoding in Encoding::ALL {
-            let options = WriteOptions { unit, comments: &comments, encoding, precision: Precision::Double };
+            let options = WriteOptions { unit, comments: &comments, encoding, precision: Precision::Double, scalars: &[] };
             let bytes = written(&cloud, &options);
             prop_assert_eq!(&bytes, &written(&cloud, &options));
             let expected = PlyCloud { cloud: cloud.clone(), dropped_not_finite: 0, stated_unit: unit, notes: vec![] };

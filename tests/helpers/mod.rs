@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each target uses some of it")]
 
 pub mod bodies;
+pub mod campaign;
 pub mod command_line;
 pub mod disk;
 #[cfg(feature = "window")]

@@ -22,6 +22,7 @@ fn the_json_has_the_fields_that_others_rely_on() {
         "params",
         "peduncle_disagreement_deg",
         "planes",
+        "point",
         "prior",
         "reference",
         "references",

@@ -217,6 +217,11 @@ fn a_bad_cloud_is_a_row_with_its_reason() {
     assert_eq!((&summary["clouds"], &summary["measured"]), (&4.into(), &3.into()));
     assert!(ran.out.contains("4, 3 with an error"), "{}", ran.out);
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    let (drawings, scaling) = (page.matches("<svg ").count(), page.matches("viewBox=").count());
+    assert!(
+        drawings > 0 && drawings == scaling,
+        "{drawings} drawings, {scaling} of them scale"
+    );
     assert!(page.contains("a&lt;b&gt;.ply") && !page.contains("a<b>"));
     assert!(page.contains("<svg"));
     let sources: Vec<&str> = page.split("src=").skip(1).collect();

@@ -15,5 +15,6 @@ mod exchanging;
 mod extreme_numbers;
 mod figures;
 mod hostile_input;
+mod points;
 mod scanning;
 mod writing;

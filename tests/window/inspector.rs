@@ -1,9 +1,12 @@
 //! The whole window, drawn by the software driver and driven by labels and keys as a person does.
 
-use crate::helpers::driving::asset;
+use crate::helpers::driving::{asset, write_cloud};
 use crate::helpers::in_window;
 use crate::helpers::in_window::{Windowed, apply, compare, compare_view, press, settle};
 use axiscope::app::{Command, PlaneChoice, Sample, Session, Tool};
+use axiscope::fruit::read_cloud;
+use axiscope::geometry::Cloud;
+use axiscope::glam::DVec3;
 use axiscope::method::Preset;
 use axiscope::ui::{Pane, Start, Window};
 use axiscope::view::{Coloring, Overlay, Theme, ViewPreset};
@@ -62,6 +65,35 @@ fn warnings_are_listed_behind_their_number() {
     for warning in &warned {
         assert!(harness.query_by_label(warning).is_some(), "{warning}");
     }
+}
+
+#[test]
+fn strays_are_counted_in_the_bar_and_in_the_legend() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let pepper = read_cloud(asset("pepper.ply")).expect("the sample").ply.cloud;
+    let far = (0..3).map(|i| DVec3::new(500.0, 10.0 * f64::from(i), 50.0));
+    let points = pepper.positions().iter().copied().chain(far).collect();
+    let path = write_cloud(&Cloud::new(points), &folder.path().join("strays.ply"));
+    let mut harness = window_of([1360.0, 860.0], 1.0, vec![path]);
+    let legend = |harness: &Windowed| {
+        let look = in_window::state(harness).look.clone().expect("drawn");
+        look.legend.swatches.iter().any(|swatch| swatch.label == "stray")
+    };
+    color(&mut harness, Coloring::Side);
+    harness.get_by_label_contains("points used without 3 strays, in cm");
+    assert!(legend(&harness));
+    let mut request = in_window::state(&harness).settings.request.clone();
+    request.params.filters.keep_strays = true;
+    let request = Box::new(request);
+    let gesture = None;
+    apply(&mut harness, Command::Set { request, gesture });
+    harness.get_by_label_contains("points used with 3 strays, in cm");
+    assert!(!legend(&harness));
+    // The next session leaves them out or keeps them as this one did.
+    let session = Session::of(in_window::state(&harness));
+    let text = serde_json::to_string(&session).expect("JSON");
+    let restored: Session = serde_json::from_str(&text).expect("a session");
+    assert!(restored.settings.request.params.filters.keep_strays);
 }
 
 #[test]

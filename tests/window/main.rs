@@ -3,6 +3,7 @@
 #[path = "../helpers/mod.rs"]
 mod helpers;
 
+mod estimators;
 mod inspector;
 mod keys;
 mod many;

@@ -89,6 +89,7 @@ impl Inspector {
             | Command::Undo
             | Command::Redo
             | Command::EndGesture
+            | Command::Estimators(_)
             | Command::Peduncle(_)
             | Command::Many(_)
             | Command::TrueAxes(_)

@@ -9,7 +9,12 @@ use crate::fruit::Fruit;
 use crate::method::{Analysis, AxisEstimate, PlaneDetail};
 use crate::parallel::{Cancelled, Watch};
 use crate::render::Scene;
-use crate::view::{Coloring, ColoringError, Legend, SceneRequest, ShownPoints, Style, compose};
+use crate::view::{
+    BodyDrawing, BodyParts, Coloring, ColoringError, Legend, SceneRequest, ShownPoints, Style, compose,
+};
+
+/// A fitted body, and the parts of it that are shown.
+pub type ShownBody = (Arc<BodyDrawing>, BodyParts);
 
 /// Everything that a look depends on.
 #[derive(Debug, Clone)]
@@ -34,6 +39,8 @@ pub struct LookRequest {
     pub fruit: Option<Arc<Fruit>>,
     /// The plane's detail, if it was computed before.
     pub detail: Option<Arc<PlaneDetail>>,
+    /// The fitted body and what is shown of it.
+    pub body: Option<ShownBody>,
 }
 
 /// One plane of an analysis as it is drawn.
@@ -129,8 +136,9 @@ pub fn look(request: LookRequest, before: Option<&Look>, watch: &dyn Watch) -> R
         brush_cm,
         fruit,
         detail,
+        body,
     } = request;
-    let composed = compose(
+    let mut composed = compose(
         &SceneRequest {
             shown: &shown,
             analysis: analysis.as_deref(),
@@ -147,6 +155,11 @@ pub fn look(request: LookRequest, before: Option<&Look>, watch: &dyn Watch) -> R
         },
         watch,
     )?;
+    if let Some((body, parts)) = body {
+        let size = shown.extent.size().length();
+        body.add_to(&mut composed.scene, &mut composed.colored.legend, parts, size);
+        composed.scene.fit_bounds();
+    }
     let (mut scene, plane) = (composed.scene, composed.plane);
     scene.scale_lines(pixels_per_point);
     let contributions = (plane.as_ref().zip(analysis.as_ref()))

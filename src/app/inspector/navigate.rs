@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::look::Look;
 use crate::app::state::State;
+use crate::estimate::Estimator;
 use crate::render::{Camera, Insets, Projection, Viewport};
 use crate::view::{Overlay, Page, SceneSettings, ViewPreset, framed_cloud, framed_points, insets};
 
@@ -73,6 +74,9 @@ pub(in crate::app) fn preset_camera(state: &State, preset: ViewPreset) -> Option
         ViewPreset::Normal => {
             let analysis = analysis?;
             analysis.planes.grid.candidate(state.plane_index()?).normal
+        }
+        ViewPreset::Axis if state.estimators.counts == Estimator::Body => {
+            state.estimators.body_axis()?.direction
         }
         ViewPreset::Axis => look.and_then(|l: &Look| l.axis.as_ref())?.direction,
         _ => DVec3::ZERO,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::apply::{choice_of, step};
-use super::look::{Look, LookRequest, look};
+use super::look::{Look, LookRequest, ShownBody, look};
 use super::navigate::{default_camera, framed_camera};
 use super::stages::{AnalyzeError, AnalyzedFruit, FruitStages};
 use super::{Inspector, Pick};
@@ -371,6 +371,7 @@ fn wanted_look(state: &State) -> Option<LookRequest> {
         brush_cm: state.brush_cm.clone(),
         fruit: state.walked.as_ref().map(|walked| walked.fruit.clone()),
         detail: None,
+        body: state.shown_body(),
     })
 }
 
@@ -385,4 +386,12 @@ fn is_same(a: &LookRequest, b: &LookRequest) -> bool {
         && (a.plane, &a.style, &a.brush_cm) == (b.plane, &b.style, &b.brush_cm)
         && (&a.reference, &a.references) == (&b.reference, &b.references)
         && a.pixels_per_point == b.pixels_per_point
+        && is_same_body(a.body.as_ref(), b.body.as_ref())
+}
+
+fn is_same_body(a: Option<&ShownBody>, b: Option<&ShownBody>) -> bool {
+    match (a, b) {
+        (Some((a, parts)), Some((b, other))) => Arc::ptr_eq(a, b) && parts == other,
+        (a, b) => a.is_none() && b.is_none(),
+    }
 }

@@ -3,10 +3,10 @@
 
 use glam::DVec3;
 
-use super::look::Contributions;
+use super::look::{Contributions, Look};
 use crate::app::state::State;
-use crate::geometry::{Plane, Unit};
-use crate::method::Side;
+use crate::geometry::Unit;
+use crate::method::PointSteps;
 use crate::render::{Color, Line};
 use crate::view::Theme;
 
@@ -20,7 +20,10 @@ pub struct Why {
     /// The file's unit; `None` where the cloud was not analyzed.
     pub unit: Option<Unit>,
     /// The steps under the plane that is looked at.
-    pub steps: Result<Steps, Unexplained>,
+    pub steps: Result<PointSteps, Unexplained>,
+    /// The share of the plane's contributions that are smaller than the point's, 0 to 1, to about the width of a bin
+    /// of the histogram; `None` without a partner or a histogram.
+    pub share_below: Option<f64>,
 }
 
 /// The reason why there are no steps.
@@ -37,116 +40,34 @@ pub enum Unexplained {
     NoPlane,
 }
 
-/// The steps of the paper for one point. Positions are in the file's unit and frame.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Steps {
-    /// The point's index in the surface.
-    pub surface_index: usize,
-    /// Its unit normal.
-    pub normal: DVec3,
-    /// The plane that is looked at.
-    pub plane: Plane,
-    /// The point's side of it.
-    pub side: Side,
-    /// Its distance from the plane in centimeters, positive in front.
-    pub plane_distance_cm: f64,
-    /// p̈, its mirror image (Eq. 12).
-    pub reflection: DVec3,
-    /// ñ, its normal's mirror image (Eq. 13), of unit length.
-    pub reflected_normal: DVec3,
-    /// p_v.
-    pub viewpoint: DVec3,
-    /// ⟨ñ, p_v − p̈⟩ in centimeters (Eq. 14): positive where a partner would be visible.
-    pub visibility_cm: f64,
-    /// The match; `None` if a partner would not be visible.
-    pub partner: Option<Match>,
-}
-
-/// A point's reflection beside its nearest neighbor (Fig. 6).
-#[derive(Debug, Clone, PartialEq)]
-pub struct Match {
-    /// The neighbor's index in the surface.
-    pub surface_index: usize,
-    /// The position, in the file's unit and frame.
-    pub position: DVec3,
-    /// Its unit normal.
-    pub normal: DVec3,
-    /// d: from the reflection to the neighbor, in centimeters.
-    pub distance_cm: f64,
-    /// ξ: between the reflected normal and the neighbor's, in radians, 0 to π.
-    pub angle_rad: f64,
-    /// τ in centimeters per radian.
-    pub tau_cm_per_rad: f64,
-    /// τξ in centimeters.
-    pub weighted_angle_cm: f64,
-    /// S = d + τξ in centimeters (Eq. 15).
-    pub score_cm: f64,
-    /// The share of the plane's contributions that are smaller, 0 to 1, to about the width of a bin of
-    /// the histogram.
-    pub share_below: Option<f64>,
-}
-
 /// The steps for a point of the picture, by its index among the shown ones; `None` where there is no
 /// such point. They are those of the plane and the parameters that are drawn, which may be older than
 /// what is set.
 pub fn why(state: &State, shown_index: usize) -> Option<Why> {
     let look = state.look.as_ref()?;
     let position = *look.shown.positions.get(shown_index)?;
-    let of = |unit, steps| {
-        Some(Why {
-            shown_index,
-            position,
-            unit,
-            steps,
-        })
-    };
-    let Some(analysis) = &look.analysis else {
-        return of(None, Err(Unexplained::NotAnalyzed));
-    };
-    let (surface, params) = (&analysis.surface, &analysis.params);
-    let unit = Some(params.unit);
-    let Some(surface_index) = look.shown.in_surface.get(shown_index) else {
-        return of(unit, Err(Unexplained::LeftOut));
-    };
-    let Some(detail) = &look.detail else {
-        return of(unit, Err(Unexplained::NoPlane));
-    };
-    let normal = *surface.normals().get(surface_index)?;
-    let point = *detail.points.get(surface_index)?;
-    let plane = detail.plane;
-    let reflection = plane.reflect_point(position);
-    let reflected_normal = plane.reflect_direction(normal);
-    let in_cm = params.unit.in_cm();
-    let tau_cm_per_rad = params.tau_cm_per_rad;
-    let partner = point.partner.and_then(|partner| {
-        let score_cm = partner.score_cm(tau_cm_per_rad);
-        Some(Match {
-            surface_index: partner.index,
-            position: *surface.points().get(partner.index)?,
-            normal: *surface.normals().get(partner.index)?,
-            distance_cm: partner.distance_cm,
-            angle_rad: partner.angle_rad,
-            tau_cm_per_rad,
-            weighted_angle_cm: tau_cm_per_rad * partner.angle_rad,
-            score_cm,
-            share_below: look.contributions.as_deref().map(|c| share_below(c, score_cm)),
-        })
-    });
-    of(
+    let unit = look.analysis.as_ref().map(|analysis| analysis.params.unit);
+    let steps = steps(look, shown_index);
+    let score_cm = (steps.as_ref().ok())
+        .and_then(|steps| steps.partner.as_ref())
+        .map(|partner| partner.score_cm);
+    let share_below =
+        (look.contributions.as_deref().zip(score_cm)).map(|(c, score_cm)| share_below(c, score_cm));
+    Some(Why {
+        shown_index,
+        position,
         unit,
-        Ok(Steps {
-            surface_index,
-            normal,
-            plane,
-            side: point.side,
-            plane_distance_cm: plane.signed_distance(position) * in_cm,
-            reflection,
-            reflected_normal,
-            viewpoint: params.viewpoint,
-            visibility_cm: reflected_normal.dot(params.viewpoint - reflection) * in_cm,
-            partner,
-        }),
-    )
+        steps,
+        share_below,
+    })
+}
+
+fn steps(look: &Look, shown_index: usize) -> Result<PointSteps, Unexplained> {
+    let analysis = look.analysis.as_ref().ok_or(Unexplained::NotAnalyzed)?;
+    let surface_index = look.shown.in_surface.get(shown_index);
+    let surface_index = surface_index.ok_or(Unexplained::LeftOut)?;
+    let detail = look.detail.as_ref().ok_or(Unexplained::NoPlane)?;
+    PointSteps::new(analysis, detail, surface_index).ok_or(Unexplained::LeftOut)
 }
 
 /// The share of contributions below `score_cm`, evenly spread within each bin.
@@ -193,7 +114,8 @@ pub fn why_lines(why: &Why, size: f64, theme: Theme) -> Vec<Line> {
     let Ok(steps) = &why.steps else {
         return vec![disc(why.position, POINT_COLOR, 10.0)];
     };
-    let (point, reflection) = (why.position, steps.reflection);
+    // Where a sample was analyzed, these are the steps of the used point nearest to the shown one.
+    let (point, reflection) = (steps.position, steps.reflection);
     let foot = 0.5 * (point + reflection);
     let normal_length = 0.09 * size;
     let mut lines = vec![

@@ -2,6 +2,7 @@
 
 use super::commands::TrueAxesCommand::{ShowAll, Start};
 use crate::app::command::Command;
+use crate::app::estimators::EstimatorsCommand;
 use crate::app::state::State;
 use crate::app::tool::Tool;
 use crate::view::{Coloring, Overlay, Style, ViewPreset};
@@ -62,6 +63,7 @@ impl Command {
                 | Self::MoveCenter(_)
                 | Self::Use(Tool::MoveCenter)
                 | Self::View(ViewPreset::Normal | ViewPreset::Axis)
+                | Self::Estimators(EstimatorsCommand::Count(_) | EstimatorsCommand::Show(_, true))
                 | Self::TrueAxes(Start(_) | ShowAll(true))
         )
     }

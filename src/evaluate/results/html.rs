@@ -57,8 +57,14 @@ pub(super) fn report(
 
 fn settings(request: &Request) -> String {
     let params = &request.params;
+    let options = request.options();
+    let differing = if options.is_empty() {
+        "All settings are the defaults".to_owned()
+    } else {
+        format!("Differing from the defaults: {}", options.join(" "))
+    };
     format!(
-        "Axiscope {}, preset {}, u = {}, τ = {:.4} cm/rad, {}.",
+        "Axiscope {}, preset {}, u = {}, τ = {:.4} cm/rad, {}. {differing}.",
         env!("CARGO_PKG_VERSION"),
         params.preset_name(),
         params.u,

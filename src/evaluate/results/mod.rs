@@ -9,11 +9,11 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Row, Summary, Sweep};
+use super::{Row, Summary, Sweep, TableError};
 use crate::charts::FigureError;
 use crate::fruit::Request;
 
-pub use tables::{TableError, csv, parquet};
+pub use tables::{csv, parquet};
 
 /// A picture of one of the worst clouds, for the page.
 #[derive(Debug, Clone, PartialEq)]

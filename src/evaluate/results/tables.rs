@@ -1,39 +1,8 @@
 //! The rows as CSV and as Parquet, with the same columns.
 
-use std::borrow::Cow;
-use std::sync::Arc;
-
-use parquet::basic::{ConvertedType, Repetition, Type as Physical};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
-use parquet::errors::ParquetError;
-use parquet::file::properties::WriterProperties;
-use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::Type;
-
 use crate::estimate::Estimator;
+use crate::evaluate::table::{Column, TableError, Value, csv_of, parquet_of};
 use crate::evaluate::{EstimateInRow, Row};
-use crate::text::spreadsheet_field;
-
-/// The reason why a table could not be written.
-#[derive(Debug, thiserror::Error)]
-pub enum TableError {
-    /// The CSV writer failed.
-    #[error("the CSV could not be written: {0}")]
-    Csv(String),
-    /// The Parquet writer failed.
-    #[error("the Parquet file could not be written")]
-    Parquet(#[from] ParquetError),
-}
-
-/// The value of a cell; `None` is an empty field in CSV and a null in Parquet.
-enum Value {
-    Text(Option<String>),
-    Count(Option<u64>),
-    Number(Option<f64>),
-}
-
-/// The name of a column, and its value in a row.
-type Column = (Cow<'static, str>, Box<dyn Fn(&Row) -> Value>);
 
 macro_rules! components {
     ($field:ident, $index:literal) => {
@@ -129,8 +98,8 @@ const COLUMNS: [NamedColumn; 45] = [
 ];
 
 /// Returns all columns in order: after those of every table, the ones of the estimators that were asked for.
-fn columns(rows: &[Row]) -> Vec<Column> {
-    let mut columns: Vec<Column> = Vec::new();
+fn columns(rows: &[Row]) -> Vec<Column<Row>> {
+    let mut columns: Vec<Column<Row>> = Vec::new();
     for (name, value) in COLUMNS {
         columns.push((name.into(), Box::new(value)));
     }
@@ -178,26 +147,7 @@ fn columns(rows: &[Row]) -> Vec<Column> {
 /// # Errors
 /// Returns an error if the writer fails.
 pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
-    let columns = columns(rows);
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let write = |table: &mut csv::Writer<Vec<u8>>, fields: Vec<String>| {
-        table
-            .write_record(fields)
-            .map_err(|e| TableError::Csv(e.to_string()))
-    };
-    write(
-        &mut table,
-        columns.iter().map(|(name, _)| name.to_string()).collect(),
-    )?;
-    for row in rows {
-        let field = |(_, value): &Column| match value(row) {
-            Value::Text(text) => spreadsheet_field(&text.unwrap_or_default()).into_owned(),
-            Value::Count(count) => count.map(|c| c.to_string()).unwrap_or_default(),
-            Value::Number(number) => number.map(|n| n.to_string()).unwrap_or_default(),
-        };
-        write(&mut table, columns.iter().map(field).collect())?;
-    }
-    table.into_inner().map_err(|e| TableError::Csv(e.to_string()))
+    csv_of(&columns(rows), rows)
 }
 
 /// Writes the rows as a Parquet file of one row group, with nulls for missing values.
@@ -205,56 +155,5 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>, TableError> {
 /// # Errors
 /// Returns an error if the writer fails.
 pub fn parquet(rows: &[Row]) -> Result<Vec<u8>, TableError> {
-    let columns = columns(rows);
-    let sample = Row::failed("", String::new());
-    let field = |(name, value): &Column| {
-        let (physical, converted) = match value(&sample) {
-            Value::Text(_) => (Physical::BYTE_ARRAY, ConvertedType::UTF8),
-            Value::Count(_) => (Physical::INT64, ConvertedType::NONE),
-            Value::Number(_) => (Physical::DOUBLE, ConvertedType::NONE),
-        };
-        let built = Type::primitive_type_builder(name, physical)
-            .with_repetition(Repetition::OPTIONAL)
-            .with_converted_type(converted)
-            .build();
-        built.map(Arc::new)
-    };
-    let fields = columns.iter().map(field).collect::<Result<_, _>>()?;
-    let schema = Type::group_type_builder("clouds").with_fields(fields).build()?;
-    let properties = WriterProperties::builder()
-        .set_created_by(concat!("axiscope ", env!("CARGO_PKG_VERSION")).into())
-        .build();
-    let mut bytes = Vec::new();
-    let mut file = SerializedFileWriter::new(&mut bytes, Arc::new(schema), Arc::new(properties))?;
-    let mut group = file.next_row_group()?;
-    for (_, value) in &columns {
-        let Some(mut column) = group.next_column()? else {
-            break;
-        };
-        let (mut texts, mut counts, mut numbers, mut present) = (vec![], vec![], vec![], vec![]);
-        for row in rows {
-            let some = match value(row) {
-                Value::Text(text) => text.map(|t| texts.push(ByteArray::from(t.into_bytes()))),
-                // Counts are far below 2^63.
-                Value::Count(count) => count.map(|c| counts.push(c.cast_signed())),
-                Value::Number(number) => number.map(|n| numbers.push(n)),
-            };
-            present.push(i16::from(some.is_some()));
-        }
-        match value(&sample) {
-            Value::Text(_) => column
-                .typed::<ByteArrayType>()
-                .write_batch(&texts, Some(&present), None)?,
-            Value::Count(_) => column
-                .typed::<Int64Type>()
-                .write_batch(&counts, Some(&present), None)?,
-            Value::Number(_) => column
-                .typed::<DoubleType>()
-                .write_batch(&numbers, Some(&present), None)?,
-        };
-        column.close()?;
-    }
-    group.close()?;
-    file.close()?;
-    Ok(bytes)
+    parquet_of("clouds", &columns(rows), rows, &Row::failed("", String::new()))
 }

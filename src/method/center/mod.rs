@@ -76,7 +76,7 @@ pub enum CenterError {
 /// Returns an error if no sphere fits, or the watch cancels the work.
 pub fn find_center(points: &[DVec3], method: &CenterMethod, watch: &dyn Watch) -> Result<DVec3, CenterError> {
     match *method {
-        CenterMethod::MeanRms(search) => Ok(search.least_rms_distance(points)),
+        CenterMethod::MeanRms(search) => Ok(search.least_rms_distance(points, watch)?),
         CenterMethod::Equidistant(search) => Ok(search.least_deviation(points, watch)?),
         CenterMethod::Sphere => fit_sphere_watched(points, watch)?
             .map(|(center, _)| center)

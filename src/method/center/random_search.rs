@@ -34,6 +34,8 @@ impl Default for RandomSearch {
 
 /// Points of the cloud that every random point is first tried on. They tell a deviation to a few percent.
 const TRIAL_POINTS: usize = 512;
+/// Random points that are drawn between two questions to the watch: some milliseconds.
+const DRAWN_AT_ONCE: usize = 1 << 16;
 /// The random points for each one that is then tried on the whole cloud.
 const TRIED_IN_FULL: usize = 20;
 
@@ -42,27 +44,32 @@ impl RandomSearch {
     pub const MOST: usize = 10_000_000;
 
     /// Draws the random points.
-    fn points(&self, spread: &Spread) -> Vec<DVec3> {
+    fn points(&self, spread: &Spread, watch: &dyn Watch) -> Result<Vec<DVec3>, Cancelled> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let sigma = self.spread * spread.rms_radius() / 3.0_f64.sqrt();
         let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
-        (0..self.count)
-            .map(|_| spread.mean + sigma * DVec3::new(normal(), normal(), normal()))
-            .collect()
+        let mut points = Vec::with_capacity(self.count);
+        while points.len() < self.count {
+            watch.go_on()?;
+            let piece = (self.count - points.len()).min(DRAWN_AT_ONCE);
+            let point = |_| spread.mean + sigma * DVec3::new(normal(), normal(), normal());
+            points.extend((0..piece).map(point));
+        }
+        Ok(points)
     }
 
     /// Finds the random point with the least RMS distance to the cloud, which by the parallel axis theorem
     /// is the one nearest to the cloud's mean.
-    pub(super) fn least_rms_distance(&self, points: &[DVec3]) -> DVec3 {
+    pub(super) fn least_rms_distance(&self, points: &[DVec3], watch: &dyn Watch) -> Result<DVec3, Cancelled> {
         let Some(spread) = Spread::of_points(points) else {
-            return DVec3::ZERO;
+            return Ok(DVec3::ZERO);
         };
-        let tries = self.points(&spread);
+        let tries = self.points(&spread, watch)?;
         let nearest = |a: &&DVec3, b: &&DVec3| {
             a.distance_squared(spread.mean)
                 .total_cmp(&b.distance_squared(spread.mean))
         };
-        tries.iter().min_by(nearest).copied().unwrap_or(spread.mean)
+        Ok(tries.iter().min_by(nearest).copied().unwrap_or(spread.mean))
     }
 
     /// Finds the random point whose distances to the cloud have the least standard deviation. On a cloud
@@ -72,14 +79,20 @@ impl RandomSearch {
         let Some(spread) = Spread::of_points(points) else {
             return Ok(DVec3::ZERO);
         };
-        let mut tries = self.points(&spread);
+        let mut tries = self.points(&spread, watch)?;
         if points.len() > TRIAL_POINTS {
             let sample: Vec<DVec3> = (0..TRIAL_POINTS)
                 .map(|i| points[i * points.len() / TRIAL_POINTS])
                 .collect();
             let mut tried = deviations(&sample, &tries, watch)?;
+            watch.go_on()?;
+            let kept = self.count.div_ceil(TRIED_IN_FULL);
+            if kept < tried.len() {
+                tried.select_nth_unstable_by(kept, least_first);
+                tried.truncate(kept);
+            }
+            watch.go_on()?;
             tried.sort_unstable_by(least_first);
-            tried.truncate(self.count.div_ceil(TRIED_IN_FULL));
             tries = tried.into_iter().map(|(_, i)| tries[i]).collect();
         }
         let tried = deviations(points, &tries, watch)?;
@@ -187,7 +200,8 @@ mod tests {
                 seed,
             };
             let found = search.least_deviation(&points, &()).expect("nobody cancels");
-            let tries = search.points(&Spread::of_points(&points).expect("there are points"));
+            let spread = Spread::of_points(&points).expect("there are points");
+            let tries = search.points(&spread, &()).expect("nobody cancels");
             let all = deviations(&points, &tries, &()).expect("nobody cancels");
             let least = all.into_iter().min_by(least_first).expect("there are tries");
             let there = distance_deviation(&points, found).expect("there are points");

@@ -2,6 +2,7 @@
 
 pub mod clouds;
 pub mod contributions;
+pub mod estimators;
 pub mod hemisphere;
 pub mod parameters;
 pub mod ranking;

@@ -3,10 +3,10 @@
 use egui::{Button, Color32, Label, RichText, Ui};
 use glam::DVec3;
 
-use crate::app::inspector::why::{Match, NEIGHBOR_COLOR, POINT_COLOR, REFLECTION_COLOR, Steps, Why, why};
+use crate::app::inspector::why::{NEIGHBOR_COLOR, POINT_COLOR, REFLECTION_COLOR, Why, why};
 use crate::app::{Command, State};
 use crate::geometry::Unit;
-use crate::method::Side;
+use crate::method::{PartnerSteps, PointSteps, Side};
 use crate::render::Color;
 use crate::text::sentence;
 use crate::ui::widgets::controls::{button, caution, coordinates, hint, small};
@@ -29,7 +29,7 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             reflection(ui, unit, steps);
             visibility(ui, steps);
             if let Some(partner) = &steps.partner {
-                neighbor(ui, unit, partner);
+                neighbor(ui, unit, partner, explained.share_below);
             } else {
                 title(ui, 4, "No partner", "Eq. 14", None);
                 let why = "d and ξ do not exist: the camera could not have seen a partner of this point, so \
@@ -160,7 +160,7 @@ fn point(ui: &mut Ui, why: &Why) {
     }
 }
 
-fn reflection(ui: &mut Ui, unit: Option<Unit>, steps: &Steps) {
+fn reflection(ui: &mut Ui, unit: Option<Unit>, steps: &PointSteps) {
     title(ui, 2, "Its reflection", "Eq. 12, 13", Some(REFLECTION_COLOR));
     value(
         ui,
@@ -176,7 +176,7 @@ fn reflection(ui: &mut Ui, unit: Option<Unit>, steps: &Steps) {
     );
 }
 
-fn visibility(ui: &mut Ui, steps: &Steps) {
+fn visibility(ui: &mut Ui, steps: &PointSteps) {
     title(ui, 3, "Could it be seen?", "Eq. 14", None);
     let tip = "The inner product of the reflected normal ñ and the vector from the reflection to the viewpoint \
                p_v. Above 0 the surface there would face the camera.";
@@ -194,7 +194,7 @@ fn visibility(ui: &mut Ui, steps: &Steps) {
     value(ui, "", verdict.into(), tip);
 }
 
-fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &Match) {
+fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &PartnerSteps, share_below: Option<f64>) {
     title(ui, 4, "Nearest neighbor", "Fig. 6a", Some(NEIGHBOR_COLOR));
     value(
         ui,
@@ -249,7 +249,7 @@ fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &Match) {
         format!("With τ = {tau:.3} cm/rad. At τ = 0 it would be d alone."),
     );
     shares(ui, partner);
-    if let Some(share) = partner.share_below {
+    if let Some(share) = share_below {
         let percent = (100.0 * share).round().clamp(0.0, 100.0);
         hint(
             ui,
@@ -259,7 +259,7 @@ fn neighbor(ui: &mut Ui, unit: Option<Unit>, partner: &Match) {
 }
 
 /// Shows the shares of d and τξ in S.
-fn shares(ui: &mut Ui, partner: &Match) {
+fn shares(ui: &mut Ui, partner: &PartnerSteps) {
     if partner.score_cm <= 0.0 {
         return;
     }

@@ -21,7 +21,7 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
             &[Pane::Parameters, Pane::Clouds, Pane::TrueAxes, Pane::Simulate],
         );
         let above = tabs(&mut tiles, &[Pane::ScoreMap, Pane::Hemisphere]);
-        let middle = tabs(&mut tiles, &[Pane::Ranking]);
+        let middle = tabs(&mut tiles, &[Pane::Ranking, Pane::Estimators]);
         let below = tabs(&mut tiles, &[Pane::WhyThisScore, Pane::Contributions]);
         let right = linear(
             &mut tiles,
@@ -41,7 +41,10 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
                 Pane::Contributions,
             ],
         );
-        let below = tabs(&mut tiles, &[Pane::ScoreMap, Pane::Hemisphere, Pane::Ranking]);
+        let below = tabs(
+            &mut tiles,
+            &[Pane::ScoreMap, Pane::Hemisphere, Pane::Ranking, Pane::Estimators],
+        );
         let left = linear(&mut tiles, LinearDir::Vertical, &[(above, 1.0), (below, 1.0)]);
         vec![(left, 0.66), (view, 1.0)]
     };
@@ -78,13 +81,21 @@ fn linear(tiles: &mut Tiles<Pane>, dir: LinearDir, children: &[(TileId, f32)]) -
     tiles.insert_container(linear)
 }
 
+/// Returns the pane beside which a pane on demand gets its tab.
+fn neighbor(pane: Pane) -> Pane {
+    match pane {
+        Pane::Estimators => Pane::Ranking,
+        _ => Pane::Parameters,
+    }
+}
+
 /// Reads a stored arrangement; returns `None` if the text is malformed or lacks a pane. One of a version before the panes
 /// on demand gets them, hidden.
 pub fn layout_from(text: &str) -> Option<Tree<Pane>> {
     let mut tree: Tree<Pane> = serde_json::from_str(text).ok()?;
     for pane in Pane::ALL.into_iter().filter(|pane| pane.is_on_demand()) {
         if tree.tiles.find_pane(&pane).is_none() {
-            let beside = tree.tiles.find_pane(&Pane::Parameters)?;
+            let beside = tree.tiles.find_pane(&neighbor(pane))?;
             let group = tree.tiles.parent_of(beside)?;
             let tile = tree.tiles.insert_pane(pane);
             tree.tiles.set_visible(tile, false);

@@ -10,7 +10,7 @@ use crate::ui::inspector::{plane_bar, view_bar, view3d};
 use crate::ui::many::{self, PanelRequest};
 use crate::ui::pane::Pane;
 use crate::ui::panels::{
-    clouds, contributions, hemisphere, parameters, ranking, score_map, simulate, why_this_score,
+    clouds, contributions, estimators, hemisphere, parameters, ranking, score_map, simulate, why_this_score,
 };
 use crate::ui::widgets::notice;
 use crate::ui::window::reveal::Reveal;
@@ -169,6 +169,11 @@ impl Panes<'_> {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     let asked = simulate::show(ui, state, commands);
                     self.acts.extend(asked.map(Act::Window));
+                });
+            }
+            Pane::Estimators => {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    estimators::show(ui, state, commands);
                 });
             }
             Pane::TrueAxes => {

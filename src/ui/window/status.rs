@@ -3,7 +3,8 @@
 use egui::RichText;
 
 use crate::app::{Command, State};
-use crate::method::axis_error_rad;
+use crate::estimate::Estimator;
+use crate::method::{Analysis, axis_error_rad};
 use crate::ui::widgets::controls::button;
 use crate::ui::widgets::progress::stage_progress;
 use crate::view::lead_in_words;
@@ -51,15 +52,23 @@ fn result(ui: &mut egui::Ui, state: &State) {
     };
     let analysis = &walked.analysis;
     let points = analysis.surface.len();
-    let used = format!("{points} points used, in {}", walked.fruit.unit.symbol());
+    let used = format!(
+        "{points} points used{}, in {}",
+        strays_in_words(analysis),
+        walked.fruit.unit.symbol()
+    );
     if state.true_axes.is_blind {
         ui.label(format!("{used} · blind: results are hidden"));
         return;
     }
     let mut parts = vec![used, format!("preset {}", analysis.params.preset_name())];
-    match (&analysis.axis, state.reference()) {
+    let name = match state.estimators.counts {
+        Estimator::Body => "body's axis",
+        _ => "best axis",
+    };
+    match (state.counted_axis(), state.reference()) {
         (Some(axis), Some(reference)) => parts.push(format!(
-            "best axis {:.1}° off the {} axis",
+            "{name} {:.1}° off the {} axis",
             axis_error_rad(axis, reference).to_degrees(),
             reference_name(&reference.source.name())
         )),
@@ -69,6 +78,17 @@ fn result(ui: &mut egui::Ui, state: &State) {
     ui.label(parts.join(" · "));
     if let Some(lead) = lead_in_words(analysis) {
         ui.add(egui::Label::new(RichText::new(lead).weak()).truncate());
+    }
+}
+
+/// Returns a clause on the strays of the cloud; nothing if it has none.
+fn strays_in_words(analysis: &Analysis) -> String {
+    match (analysis.strays.len(), analysis.params.filters.keep_strays) {
+        (0, _) => String::new(),
+        (1, false) => " without 1 stray".into(),
+        (count, false) => format!(" without {count} strays"),
+        (1, true) => " with 1 stray".into(),
+        (count, true) => format!(" with {count} strays"),
     }
 }
 

@@ -94,6 +94,26 @@ fn u_and_tau_are_set_by_their_sliders() {
 }
 
 #[test]
+fn strays_are_left_out_by_a_switch_that_undo_turns_back() {
+    let mut harness = dark(bench(Panel::Parameters, Some(Sample::Pepper)), [300.0, 900.0]);
+    click(&mut harness, "Filters");
+    let keeps = |harness: &Harness<'_, Bench>| {
+        let state = harness.state().app.state();
+        state.settings.request.params.filters.keep_strays
+    };
+    assert!(!keeps(&harness), "they are left out by default");
+    click(&mut harness, "Leave out strays");
+    assert!(keeps(&harness) && last_set(harness.state()).0.params.filters.keep_strays);
+    harness.state_mut().apply(Command::Undo);
+    assert!(!keeps(&harness));
+    harness.state_mut().apply(Command::Redo);
+    assert!(keeps(&harness));
+    harness.run();
+    click(&mut harness, "Reset Filters");
+    assert!(!keeps(&harness));
+}
+
+#[test]
 fn one_drag_is_one_step_of_undo() {
     let mut harness = dark(bench(Panel::Parameters, Some(Sample::Pepper)), [300.0, 620.0]);
     let rect = harness

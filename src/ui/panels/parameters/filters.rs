@@ -18,6 +18,7 @@ const VOXEL_CM: f64 = 0.2;
 pub(super) fn show(ui: &mut Ui, edit: &mut Edit<'_>) {
     let differs = edit.request.params.filters != Filters::default();
     let is_reset = section(ui, "Filters", false, differs, |ui| {
+        strays(ui, edit);
         outliers(ui, edit);
         voxels(ui, edit);
         sample(ui, edit);
@@ -34,6 +35,15 @@ fn sample(ui: &mut Ui, edit: &mut Edit<'_>) {
     let most = &mut edit.request.params.filters.max_points;
     let response = row(ui, "Most points", tip, |ui| count(ui, name, most, range, tip));
     edit.note(&response, "sample");
+}
+
+fn strays(ui: &mut Ui, edit: &mut Edit<'_>) {
+    let mut leaves_out = !edit.request.params.filters.keep_strays;
+    let tip = "Leave out points that lie far from all others, more than 4 radii of the cloud's inner half from its middle. \
+               A single one can turn the axis. The bar below counts them, and the view shows them in green.";
+    if checkbox(ui, &mut leaves_out, "Leave out strays", tip) {
+        edit.request.params.filters.keep_strays = !leaves_out;
+    }
 }
 
 fn outliers(ui: &mut Ui, edit: &mut Edit<'_>) {

@@ -1,128 +1,17 @@
-//! `axiscope analyze`: one cloud's planes, best plane, axis and error.
+//! The result of one cloud as text.
 
 use std::io::Write;
-use std::path::PathBuf;
-use std::time::Instant;
 
-use anyhow::Context;
-use axiscope::estimate::{EstimateError, EstimateSettings, Estimator, estimate};
 use axiscope::evaluate::{
-    AnalysisReport, ErrorBreakdown, Examination, TimedEstimate, Timings, TruthChoice, examine,
-    peduncle_disagreement_deg, reference_of, surface_of,
+    ErrorBreakdown, Examination, TimedEstimate, Timings, TruthChoice, peduncle_disagreement_deg, reference_of,
 };
-use axiscope::fruit::Fruit;
 use axiscope::geometry::Unit;
 use axiscope::method::axis_error_rad;
-use axiscope::method::{Aggregation, Analysis, AxisEstimate, CenterMethod, Stage};
+use axiscope::method::{Aggregation, Analysis, AxisEstimate, AxisSource, CenterMethod};
 use axiscope::peduncle::PeduncleSource;
-use clap::{Args, ValueEnum};
 use glam::DVec3;
 
-use super::options::{AnalysisOptions, EstimatorOptions};
-use super::output::Printable;
-use super::progress::StageClock;
-
-#[derive(Debug, Args)]
-pub(super) struct Analyze {
-    /// The point cloud (PLY)
-    cloud: PathBuf,
-    /// Reference against which the error is taken apart
-    #[arg(long, value_enum, default_value = "auto")]
-    truth: TruthChoice,
-    #[command(flatten)]
-    analysis: AnalysisOptions,
-    #[command(flatten)]
-    estimators: EstimatorOptions,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-enum Format {
-    /// A short report
-    Text,
-    /// One JSON object (schema axiscope.analysis/1)
-    Json,
-}
-
-pub(super) fn run(args: &Analyze) -> anyhow::Result<()> {
-    let started = Instant::now();
-    let mut request = args.analysis.request();
-    request.estimates = args.estimators.settings(&[Estimator::Paper, Estimator::Body]);
-    let clock = StageClock::new();
-    let fruit = Fruit::read_watched(&args.cloud, &request, &clock)?;
-    let read = milliseconds_since(started);
-    let examined = examine(fruit, &request, &clock);
-    let times = clock.finish();
-    let examined = examined.with_context(|| args.cloud.display().to_string())?;
-    let of_analysis = milliseconds_since(started) - read;
-    // Its times are not those of the analysis.
-    let clock = StageClock::new();
-    let examined = examined.with_true_center(&clock);
-    clock.finish();
-    let examined = examined?;
-    let estimates = timed_estimates(&examined, &request.estimates, of_analysis)?;
-    let timings = Timings {
-        read,
-        normals: times.milliseconds(Stage::Normals),
-        center: times.milliseconds(Stage::Center),
-        plane_terms: times.milliseconds(Stage::PlaneTerms),
-        total: milliseconds_since(started),
-    };
-    match args.format {
-        Format::Text => write_text(&mut Printable::stdout(), args, &examined, &timings, &estimates)?,
-        Format::Json => {
-            let report = AnalysisReport::new(
-                &args.cloud,
-                &request,
-                args.analysis.seed,
-                &examined,
-                args.truth,
-                timings,
-                &estimates,
-            );
-            // The text is complete before its first byte goes out, so that a reader gets all of it or nothing.
-            let text = serde_json::to_string_pretty(&report)?;
-            writeln!(std::io::stdout(), "{text}")?;
-        }
-    }
-    Ok(())
-}
-
-fn milliseconds_since(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64() * 1e3
-}
-
-/// Runs the estimators, each with its time: `of_analysis` milliseconds for the paper's, which has run already, and for
-/// the others that of the surface too, which all of them need.
-fn timed_estimates(
-    examined: &Examination,
-    settings: &EstimateSettings,
-    of_analysis: f64,
-) -> anyhow::Result<Vec<TimedEstimate>> {
-    let started = Instant::now();
-    let is_fitted = settings.estimators.iter().any(|&e| e != Estimator::Paper);
-    let surface = if is_fitted {
-        surface_of(examined, &())
-    } else {
-        Err(EstimateError::NoFit)
-    };
-    let of_surface = milliseconds_since(started);
-    let mut estimates = Vec::new();
-    for &estimator in &settings.estimators {
-        let started = Instant::now();
-        let estimate = estimate(estimator, &examined.analysis, &surface, settings.prior, &())?;
-        let before = if estimator == Estimator::Paper {
-            of_analysis
-        } else {
-            of_surface
-        };
-        let ms = before + milliseconds_since(started);
-        estimates.push(TimedEstimate { estimate, ms });
-    }
-    Ok(estimates)
-}
+use super::Analyze;
 
 /// Describes an estimate in one line.
 fn described(timed: &TimedEstimate, examined: &Examination) -> String {
@@ -137,8 +26,12 @@ fn described(timed: &TimedEstimate, examined: &Examination) -> String {
     if estimate.ambiguous {
         parts.push("ambiguous".into());
     }
-    if let Some(error_deg) = timed.error_deg(&examined.references) {
-        parts.push(format!("error {error_deg:.2}°"));
+    let reference = reference_of(&examined.references, TruthChoice::Auto);
+    if let Some((error_deg, reference)) = timed.error_deg(&examined.references).zip(reference) {
+        parts.push(format!(
+            "error {error_deg:.2}° to {}",
+            axis_name(&reference.source)
+        ));
     }
     if let (Some(share), Some(occlusion)) = (estimate.seen_share, estimate.occlusion) {
         parts.push(format!(
@@ -151,7 +44,8 @@ fn described(timed: &TimedEstimate, examined: &Examination) -> String {
     parts.join(", ")
 }
 
-fn write_text(
+/// Writes the report.
+pub(super) fn write_text(
     out: &mut impl Write,
     args: &Analyze,
     examined: &Examination,
@@ -242,7 +136,7 @@ fn write_text(
     Ok(())
 }
 
-/// Writes the peduncle's references, the axis's error against each, and the angle between them.
+/// Writes every reference, the axis's error against each, and the angle between those of the peduncle.
 fn write_references(out: &mut impl Write, examined: &Examination) -> std::io::Result<()> {
     let Examination {
         fruit,
@@ -283,7 +177,35 @@ fn write_references(out: &mut impl Write, examined: &Examination) -> std::io::Re
             row(out, "", &text)?;
         }
     }
+    for reference in references {
+        let (name, source) = match &reference.source {
+            AxisSource::Simulation => ("True axis", "the simulator's".to_owned()),
+            source @ (AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated) => {
+                ("Axis by hand", axis_name(source))
+            }
+            _ => continue,
+        };
+        row(
+            out,
+            name,
+            &format!("{} ({source})", direction(reference.direction)),
+        )?;
+        row(out, "Error", &error_to(reference))?;
+    }
     Ok(())
+}
+
+/// Returns the name of a reference axis in a sentence.
+fn axis_name(source: &AxisSource) -> String {
+    match source {
+        AxisSource::Simulation => "the true axis".into(),
+        AxisSource::Annotator(name) => format!("{name}'s"),
+        AxisSource::Annotators(count) => format!("the mean of {count} annotators"),
+        AxisSource::Adjudicated => "the one decided on".into(),
+        AxisSource::PeduncleDirection => "the peduncle's own direction".into(),
+        AxisSource::Peduncle => "the reference axis".into(),
+        source => source.name().into_owned(),
+    }
 }
 
 /// Writes the parts of an error; `scored` is the number of planes with a score.
@@ -323,7 +245,7 @@ fn write_parts(out: &mut impl Write, parts: &ErrorBreakdown, scored: usize) -> s
     Ok(())
 }
 
-fn row(out: &mut impl Write, name: &str, value: &str) -> std::io::Result<()> {
+pub(super) fn row(out: &mut impl Write, name: &str, value: &str) -> std::io::Result<()> {
     writeln!(out, "{name:<16}{value}")
 }
 
@@ -357,7 +279,7 @@ fn unit_name(unit: Unit) -> &'static str {
 }
 
 /// Formats a position to a tenth of a millimeter or better.
-fn position(p: DVec3, unit: Unit) -> String {
+pub(super) fn position(p: DVec3, unit: Unit) -> String {
     let digits = match unit {
         Unit::Meter => 5,
         Unit::Centimeter => 3,
@@ -366,7 +288,7 @@ fn position(p: DVec3, unit: Unit) -> String {
     format!("({:.digits$}, {:.digits$}, {:.digits$}) {unit}", p.x, p.y, p.z)
 }
 
-fn direction(v: DVec3) -> String {
+pub(super) fn direction(v: DVec3) -> String {
     // Adding zero turns a rounded -0.0 into 0.
     let [x, y, z] = v.to_array().map(|c| (c * 1e4).round() / 1e4 + 0.0);
     format!("({x:.4}, {y:.4}, {z:.4})")
