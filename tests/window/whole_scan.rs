@@ -24,10 +24,13 @@ fn what_is_the_matter_is_said_in_the_view_alone_with_both_ways_out() {
     assert!(state(&harness).is_viewpoint_inside);
     let (_, why) = state(&harness).unanalyzed.as_ref().expect("it is shown");
     assert!(
-        why.as_ref().is_some_and(|why| why.contains("viewpoint")),
+        why.as_ref()
+            .is_some_and(|why| why.contains("lies inside the cloud")),
         "{why:?}"
     );
-    let said = harness.query_all_by_label_contains("viewpoint").count();
+    let said = harness
+        .query_all_by_label_contains("lies inside the cloud")
+        .count();
     assert_eq!(said, 0, "no panel says it again");
     let pointers = harness.query_all_by_label("Not analyzed: see the view.").count();
     assert!(pointers >= 2, "{pointers} panels point to the view");

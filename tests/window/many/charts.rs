@@ -43,6 +43,6 @@ fn errors_are_shown_over_lean_and_coverage_where_truths_tell_them() {
     for title in ["By lean", "By coverage"] {
         harness.get_by_label(title).click();
         settle(&mut harness);
-        harness.get_by_label_contains(&format!("Chart: {title}, 10 clouds"));
+        harness.get_by_label_contains(&format!("Chart: {title}, 9 clouds"));
     }
 }
