@@ -11,7 +11,6 @@ use crate::ui::action::WindowAct;
 use crate::ui::pane::Pane;
 use crate::ui::window::dialogs;
 use crate::ui::window::palette::Palette;
-use crate::ui::window::reveal::Reveal;
 use crate::ui::window::save_image::SaveImage;
 
 impl Window {
@@ -77,7 +76,6 @@ impl Window {
                 let tile = self.tree.tiles.find_pane(&pane);
                 if let Some(tile) = tile {
                     self.tree.tiles.set_visible(tile, true);
-                    self.reveal = Some(Reveal::new(tile));
                 }
                 self.tree.make_active(|id, _| Some(id) == tile);
             }

@@ -1,6 +1,6 @@
 //! The arrangement of the panes, at first and as stored.
 
-use egui_tiles::{Linear, LinearDir, Tile, TileId, Tiles, Tree};
+use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
 
 use crate::ui::pane::Pane;
 
@@ -18,7 +18,8 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
     let columns = if is_wide(window_width) {
         let left = tabs(
             &mut tiles,
-            &[Pane::Parameters, Pane::Clouds, Pane::TrueAxes, Pane::Simulate],
+            // The one on demand first: in a narrow bar the last may be out of sight.
+            &[Pane::Simulate, Pane::Parameters, Pane::Clouds, Pane::TrueAxes],
         );
         let above = tabs(&mut tiles, &[Pane::ScoreMap, Pane::Hemisphere]);
         let middle = tabs(&mut tiles, &[Pane::Ranking, Pane::Estimators]);
@@ -33,10 +34,10 @@ pub fn first_layout(window_width: f32) -> Tree<Pane> {
         let above = tabs(
             &mut tiles,
             &[
+                Pane::Simulate,
                 Pane::Parameters,
                 Pane::Clouds,
                 Pane::TrueAxes,
-                Pane::Simulate,
                 Pane::WhyThisScore,
                 Pane::Contributions,
             ],
@@ -99,8 +100,12 @@ pub fn layout_from(text: &str) -> Option<Tree<Pane>> {
             let group = tree.tiles.parent_of(beside)?;
             let tile = tree.tiles.insert_pane(pane);
             tree.tiles.set_visible(tile, false);
-            if let Some(Tile::Container(container)) = tree.tiles.get_mut(group) {
-                container.add_child(tile);
+            match tree.tiles.get_mut(group) {
+                Some(Tile::Container(Container::Tabs(tabs))) if pane == Pane::Simulate => {
+                    tabs.children.insert(0, tile);
+                }
+                Some(Tile::Container(container)) => container.add_child(tile),
+                _ => {}
             }
         }
     }

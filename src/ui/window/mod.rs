@@ -12,7 +12,6 @@ mod menu;
 pub(super) mod open;
 mod palette;
 mod panes;
-mod reveal;
 mod save_image;
 mod shortcuts;
 mod status;
@@ -39,7 +38,6 @@ use crate::ui::window::dialogs::Asked;
 use crate::ui::window::layout::{first_layout, is_wide, layout_from};
 use crate::ui::window::palette::Palette;
 use crate::ui::window::panes::Panes;
-use crate::ui::window::reveal::Reveal;
 use save_image::SaveImage;
 
 /// The start of a window.
@@ -59,8 +57,6 @@ pub struct Start {
 pub struct Window {
     app: App,
     tree: Tree<Pane>,
-    /// The tab that was asked for and may be out of sight.
-    reveal: Option<Reveal>,
     /// Whether the user has not moved a pane, so that the arrangement follows the window's width.
     is_layout_ours: bool,
     laid_out_for: f32,
@@ -132,7 +128,6 @@ impl Window {
             is_layout_ours: layout.is_none(),
             tree: layout.unwrap_or_else(|| first_layout(f32::INFINITY)),
             laid_out_for: f32::INFINITY,
-            reveal: None,
             is_help_open: false,
             is_about_open: false,
             palette: None,
@@ -190,7 +185,6 @@ impl Window {
                     commands: &mut commands,
                     viewport: &mut viewport,
                     was_moved: &mut was_moved,
-                    reveal: &mut self.reveal,
                 };
                 self.tree.ui(&mut panes, ui);
             });

@@ -1,7 +1,7 @@
 //! The contents of each pane.
 
-use egui::{Frame, Margin, Panel, Response, ScrollArea, WidgetText};
-use egui_tiles::{Behavior, EditAction, SimplificationOptions, Tabs, Tile, TileId, Tiles, UiResponse};
+use egui::{Frame, Margin, Panel, ScrollArea, WidgetText};
+use egui_tiles::{Behavior, EditAction, SimplificationOptions, Tile, TileId, Tiles, UiResponse};
 
 use crate::app::{Command, PeduncleCommand, State, TrueAxesCommand};
 use crate::render::Viewport;
@@ -13,7 +13,6 @@ use crate::ui::panels::{
     clouds, contributions, estimators, hemisphere, parameters, ranking, score_map, simulate, why_this_score,
 };
 use crate::ui::widgets::notice;
-use crate::ui::window::reveal::Reveal;
 use crate::ui::{peduncle, true_axes};
 
 /// The state that the panes show, and the commands that they give.
@@ -27,8 +26,6 @@ pub struct Panes<'a> {
     pub viewport: &'a mut Option<Viewport>,
     /// Whether the user has moved a pane.
     pub was_moved: &'a mut bool,
-    /// The tab that is to be brought into sight.
-    pub reveal: &'a mut Option<Reveal>,
 }
 
 impl Behavior<Pane> for Panes<'_> {
@@ -55,24 +52,6 @@ impl Behavior<Pane> for Panes<'_> {
         // It stays in the arrangement, out of sight.
         tiles.set_visible(tile, false);
         false
-    }
-
-    fn on_tab_button(&mut self, _: &mut Tiles<Pane>, tile: TileId, button: Response) -> Response {
-        Reveal::measure(self.reveal, tile, &button);
-        button
-    }
-
-    fn top_bar_right_ui(
-        &mut self,
-        _: &Tiles<Pane>,
-        _: &mut egui::Ui,
-        _: TileId,
-        tabs: &Tabs,
-        scroll_offset: &mut f32,
-    ) {
-        if let Some(reveal) = self.reveal {
-            reveal.scroll(tabs, scroll_offset);
-        }
     }
 
     fn simplification_options(&self) -> SimplificationOptions {
