@@ -72,7 +72,8 @@ pub struct Judgment {
     pub confidence: Option<Confidence>,
     /// A note in the annotator's words; empty without one.
     pub note: String,
-    /// Whether the annotator saw no computed axis. [`super::Store`] clears it unless it can be true: the axis is set by
+    /// Whether the annotator saw nothing computed for this cloud: in the window, as far as its file of shown clouds goes
+    /// back. What the command line showed cannot be known. [`super::Store`] clears it unless it can be true: the axis is set by
     /// hand, and all edits before it were blind, undone ones included.
     pub blind: bool,
 }

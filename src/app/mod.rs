@@ -200,6 +200,12 @@ impl App {
         self.many.keep_rows_in(folder, &self.context);
     }
 
+    /// Keeps in a file which clouds were shown with something computed, over all sessions: an axis of one of them is not
+    /// set blindly.
+    pub fn keep_seen_in(&mut self, path: PathBuf) {
+        self.true_axes.keep_seen_in(path, &mut self.context);
+    }
+
     /// The number of files that were read in the background to know their hash: for tests of the cache.
     #[doc(hidden)]
     pub fn background_reads(&self) -> usize {

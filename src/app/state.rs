@@ -95,8 +95,6 @@ pub struct State {
     pub is_viewpoint_inside: bool,
     /// The axes to compare with.
     pub references: Vec<AxisEstimate>,
-    /// The one that the error is measured against.
-    pub truth: TruthChoice,
     /// Warnings about the result, a sentence each.
     pub warnings: Vec<String>,
     /// Whether the analysis is of older settings than those that are shown.
@@ -160,7 +158,6 @@ impl State {
             unanalyzed: None,
             is_viewpoint_inside: false,
             references: Vec::new(),
-            truth: TruthChoice::Peduncle,
             warnings: Vec::new(),
             is_stale: false,
             progress: None,
@@ -235,13 +232,10 @@ impl State {
         }
     }
 
-    /// The axis that errors are measured against: the chosen one, or else the first there is.
+    /// The axis that errors are measured against: the current cloud's reference by the choice that table, charts and
+    /// gallery follow too. `None` if this cloud has none of that kind.
     pub fn reference(&self) -> Option<&AxisEstimate> {
-        let chosen = self.true_axes.compared.as_ref();
-        let chosen = chosen.and_then(|source| self.references.iter().find(|axis| axis.source == *source));
-        chosen
-            .or_else(|| reference_of(&self.references, self.truth))
-            .or(self.references.first())
+        reference_of(&self.references, self.many.against)
     }
 
     /// The parts of the axis's error against the chosen reference. Takes O(u²).

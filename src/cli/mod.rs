@@ -34,6 +34,10 @@ struct Cli {
     #[cfg(feature = "window")]
     #[arg(value_name = "FILE|FOLDER")]
     paths: Vec<std::path::PathBuf>,
+    /// Open the window in blind mode, in which an annotator sees nothing computed
+    #[cfg(feature = "window")]
+    #[arg(long)]
+    blind: bool,
     /// Number of worker threads, which does not change results [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -99,9 +103,13 @@ fn run(cli: Cli) -> anyhow::Result<()> {
             path.display()
         )));
     }
+    #[cfg(feature = "window")]
+    if cli.command.is_some() && cli.blind {
+        return Err(usage_error("“--blind” before a command is of the window alone"));
+    }
     let Some(command) = cli.command else {
         #[cfg(feature = "window")]
-        return open_window(cli.paths);
+        return open_window(cli.paths, cli.blind);
         #[cfg(not(feature = "window"))]
         return Err(usage_error(
             "this build has no window; `axiscope --help` lists the commands",
@@ -135,7 +143,7 @@ fn run(cli: Cli) -> anyhow::Result<()> {
 /// A path that does not exist is an error in the terminal instead of a message in the window, since it may be a
 /// mistyped command.
 #[cfg(feature = "window")]
-fn open_window(paths: Vec<std::path::PathBuf>) -> anyhow::Result<()> {
+fn open_window(paths: Vec<std::path::PathBuf>, is_blind: bool) -> anyhow::Result<()> {
     if let Some(missing) = paths.iter().find(|path| !path.exists()) {
         // A single word without an extension was most likely meant as a command.
         if missing.extension().is_none() && missing.components().count() == 1 {
@@ -146,7 +154,7 @@ fn open_window(paths: Vec<std::path::PathBuf>) -> anyhow::Result<()> {
         }
         anyhow::bail!("{}: there is no such file or folder", missing.display());
     }
-    Ok(axiscope::ui::open_window(paths)?)
+    Ok(axiscope::ui::open_window(paths, is_blind)?)
 }
 
 /// Parses a command line that a picture carries; `None` if it is not one of `render`'s.

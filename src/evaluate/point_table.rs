@@ -72,6 +72,9 @@ fn side_name(side: Side) -> &'static str {
     }
 }
 
+/// A column's name, and its value in a row.
+type NamedColumn = (&'static str, fn(&PointRow) -> Value);
+
 fn columns() -> Vec<Column<PointRow>> {
     fn count(index: Option<usize>) -> Value {
         Value::Count(index.map(|i| i as u64))
@@ -88,7 +91,7 @@ fn columns() -> Vec<Column<PointRow>> {
     vector(["reflection_x", "reflection_y", "reflection_z"], |steps| {
         steps.reflection
     });
-    let rest: [(&'static str, fn(&PointRow) -> Value); 7] = [
+    let rest: [NamedColumn; 7] = [
         ("side", |row| Value::Text(Some(side_name(row.steps.side).into()))),
         ("plane_distance_cm", |row| {
             Value::Number(Some(row.steps.plane_distance_cm))

@@ -10,7 +10,7 @@ use crate::parallel::{Cancelled, Watch};
 
 /// Returns the indices of the points that are not outliers, ascending: those whose mean distance to their `neighbors`
 /// nearest other points is at most the cloud's mean of that distance plus `std_ratio` times its
-/// standard deviation.
+/// sample standard deviation, with n − 1, as in PCL's `StatisticalOutlierRemoval`.
 ///
 /// # Errors
 /// Returns [`Cancelled`] if the watch cancels the work.
@@ -41,7 +41,9 @@ pub fn statistical_inliers(
     .concat();
     let count = means.len() as f64;
     let mean = means.iter().sum::<f64>() / count;
-    let variance = means.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / count;
+    let squares = means.iter().map(|d| (d - mean).powi(2)).sum::<f64>();
+    // A single point has no spread.
+    let variance = squares / (count - 1.0).max(1.0);
     let limit = mean + std_ratio * variance.sqrt();
     Ok((0..points.len()).filter(|&i| means[i] <= limit).collect())
 }

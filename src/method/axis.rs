@@ -74,6 +74,21 @@ impl AxisSource {
             Self::Adjudicated => "adjudicated".into(),
         }
     }
+
+    /// The axis in words, as texts for readers have it: “the simulated axis”, “Ada's axis”.
+    pub fn in_words(&self) -> Cow<'static, str> {
+        match self {
+            Self::SymmetryPlane => "the symmetry plane's axis".into(),
+            Self::Fitted(estimator) => format!("the axis by {estimator}").into(),
+            Self::Peduncle => "the peduncle's axis".into(),
+            Self::PeduncleDirection => "the peduncle's own direction".into(),
+            Self::Simulation => "the simulated axis".into(),
+            Self::Annotator(name) => format!("{name}'s axis").into(),
+            Self::Annotators(1) => "the annotator's axis".into(),
+            Self::Annotators(_) => "the annotators' mean".into(),
+            Self::Adjudicated => "the adjudicated axis".into(),
+        }
+    }
 }
 
 /// One estimate of a fruit's axis among several.

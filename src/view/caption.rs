@@ -30,7 +30,7 @@ pub fn caption(
     let error = match (axis, reference) {
         (Some(axis), Some(reference)) => {
             let degrees = axis_error_rad(axis, reference).to_degrees();
-            format!("axis {degrees:.1}° off the reference")
+            format!("axis {degrees:.1}° off {}", reference.source.in_words())
         }
         (Some(_), None) => "no reference".into(),
         (None, _) => "no axis".into(),

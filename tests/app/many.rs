@@ -327,7 +327,7 @@ fn saved_results_are_those_of_the_command_line_that_is_copied() {
     };
     act(&mut app, folder(ManyCommand::Tag { place: 2, tagged }));
     set(&mut app, |r| r.params.u = 7);
-    act(&mut app, folder(ManyCommand::Against(TruthChoice::Peduncle)));
+    act(&mut app, Command::Compare(TruthChoice::Peduncle));
     let into = dir.path().to_owned();
     act(&mut app, folder(ManyCommand::SaveResults(into.clone())));
     assert!(
@@ -412,7 +412,7 @@ fn sort_filter_and_sweep_survive_a_restart() {
         ..Filter::default()
     };
     act(&mut app, folder(ManyCommand::Filter(Box::new(filter))));
-    act(&mut app, folder(ManyCommand::Against(TruthChoice::Truth)));
+    act(&mut app, Command::Compare(TruthChoice::Truth));
     assert_eq!(app.state().many.folders, [dir.path()]);
     let path = dir.path().join("session.json");
     Session::of(app.state()).write(&path).expect("it can be kept");
@@ -431,6 +431,39 @@ fn sort_filter_and_sweep_survive_a_restart() {
     assert_eq!(
         (state.sort, &state.filter, state.against),
         (sort, &app.state().many.filter, TruthChoice::Truth)
+    );
+}
+
+#[test]
+fn table_view_and_planes_measure_against_one_reference() {
+    let dir = TempDir::new().expect("a folder");
+    write_peppers(dir.path(), 2);
+    let mut app = opened(dir.path(), &dir.path().join("cache"));
+    act(&mut app, Command::Show(0));
+    let mut errors = Vec::new();
+    for choice in [
+        TruthChoice::Auto,
+        TruthChoice::Peduncle,
+        TruthChoice::PeduncleDirection,
+        TruthChoice::Truth,
+        TruthChoice::Manual,
+    ] {
+        act(&mut app, Command::Compare(choice));
+        let state = app.state();
+        let in_table = state.many.rows[0].error_deg(state.many.against);
+        let axis = state.analysis().and_then(|a| a.axis.clone()).expect("an axis");
+        let reference = state.reference();
+        let in_view = reference.map(|r| axiscope::method::axis_error_rad(&axis, r).to_degrees());
+        assert_eq!(in_table, in_view, "{choice:?}");
+        let drawn = state.look.as_ref().and_then(|look| look.reference.clone());
+        assert_eq!(drawn.as_ref(), reference, "{choice:?}");
+        errors.push(in_view);
+    }
+    assert_eq!(errors[0], errors[3], "the best known one is the simulator's");
+    assert_ne!(errors[1], errors[3], "they are told apart");
+    assert_eq!(
+        errors[4], None,
+        "nobody has set one, and no other takes its place"
     );
 }
 

@@ -61,7 +61,7 @@ fn every_number_is_the_method_s() {
         assert!((partner.score_cm - score).abs() < 1e-6);
         assert!((partner.distance_cm + partner.weighted_angle_cm - partner.score_cm).abs() < 1e-12);
         let below = scores.partition_point(|&s| s < partner.score_cm) as f64 / scores.len() as f64;
-        let share = explained.share_below.expect("there is a histogram");
+        let share = why.share_below.expect("there is a histogram");
         // To the width of a bin; the fullest of them holds some percent.
         assert!((share - below).abs() < 0.03, "{share} {below}");
     }

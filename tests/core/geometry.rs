@@ -337,6 +337,21 @@ fn outliers_are_left_out_and_nothing_else() {
 }
 
 #[test]
+fn the_outlier_filter_takes_the_sample_s_standard_deviation() {
+    // Distances to the nearest other point of 1, 1, 1, 1 and 3: their mean is 1.4, and their standard deviation
+    // is 0.894 with n − 1, 0.8 with n.
+    let points = [0.0, 1.0, 2.0, 3.0, 6.0].map(|x| DVec3::new(x, 0.0, 0.0));
+    let kept = |ratio| statistical_inliers(&points, k(1), ratio, &()).unwrap().len();
+    assert_eq!(
+        kept(1.9),
+        5,
+        "3 is less than 1.4 + 1.9 · 0.894, and more than 1.4 + 1.9 · 0.8"
+    );
+    assert_eq!(kept(1.7), 4);
+    assert_eq!(statistical_inliers(&points[..1], k(1), 1.0, &()).unwrap(), [0]);
+}
+
+#[test]
 fn a_voxel_holds_the_mean_of_its_points() {
     let points = vec![
         DVec3::new(0.1, 0.1, 0.1),

@@ -14,7 +14,7 @@ pub enum BodyPart {
 }
 
 /// Something that is asked about estimates.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EstimatorsCommand {
     /// Let an estimator's axis count: the paper's or the body's.
     Count(Estimator),

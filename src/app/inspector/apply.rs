@@ -41,9 +41,9 @@ impl Inspector {
                 request.params.center = CenterMethod::Given(center);
                 cx.set_request(request, Some("center"));
             }
-            Command::Compare(truth) => {
-                state.truth = truth;
-                state.true_axes.compared = None;
+            Command::Compare(choice) => {
+                state.many.against = choice;
+                state.many.reorder();
             }
 
             Command::LookAt(plane) => look_at(cx, plane),

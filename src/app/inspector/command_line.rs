@@ -2,6 +2,7 @@
 
 use crate::evaluate::TruthChoice;
 use crate::fruit::PeduncleChoice;
+use crate::method::AxisSource;
 use crate::view::{Overlay, Theme};
 
 use crate::app::state::{PlaneChoice, State};
@@ -37,8 +38,15 @@ pub fn command_line(state: &State, out: &str, size_px: [u32; 2]) -> Vec<String> 
     if state.style.theme == Theme::Light {
         add("--background", "light".into());
     }
-    if !matches!(state.truth, TruthChoice::Auto | TruthChoice::Peduncle) {
-        add("--reference", state.truth.name().into());
+    // The command knows kinds of references, and not the best known one: that is named by its kind.
+    let kind = match (state.many.against, state.reference().map(|axis| &axis.source)) {
+        (TruthChoice::Auto, Some(AxisSource::Simulation)) => TruthChoice::Truth,
+        (TruthChoice::Auto, Some(AxisSource::Adjudicated | AxisSource::Annotators(_))) => TruthChoice::Manual,
+        (TruthChoice::Auto, _) => TruthChoice::Peduncle,
+        (chosen, _) => chosen,
+    };
+    if kind != TruthChoice::Peduncle {
+        add("--reference", kind.name().into());
     }
     if let Some(shown) = state.shown() {
         let size = state.style.point_size_in_window(shown.len());

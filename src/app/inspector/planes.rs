@@ -1,12 +1,13 @@
 //! The candidate planes of an analysis with their ranks, axes and errors, as the panels show them.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::super::PlaneChoice;
 use crate::geometry::angle_between_lines_rad;
-use crate::method::Analysis;
+use crate::method::{Analysis, AxisEstimate};
 use crate::render::Color;
 use crate::view::value_color;
 
@@ -61,6 +62,8 @@ pub struct Planes {
     pub facts: Vec<PlaneFacts>,
     /// The range of the colors; `None` if no plane has a score.
     pub scale: Option<ScoreScale>,
+    /// The reference of the errors, in words.
+    pub against: Option<Cow<'static, str>>,
 }
 
 /// The range of scores that the colors span, in centimeters.
@@ -99,8 +102,8 @@ impl ScoreScale {
 }
 
 impl Planes {
-    /// Collects the planes of an analysis, whose axes are compared with `reference`, a direction of unit length.
-    pub fn new(analysis: &Arc<Analysis>, reference: Option<DVec3>) -> Self {
+    /// Collects the planes of an analysis, whose axes are compared with `reference`.
+    pub fn new(analysis: &Arc<Analysis>, reference: Option<&AxisEstimate>) -> Self {
         let ranking = &analysis.ranking;
         let grid = analysis.planes.grid;
         let mut ranks = vec![None; grid.plane_count()];
@@ -110,7 +113,9 @@ impl Planes {
         let facts = grid.candidates().enumerate().map(|(index, candidate)| {
             let term = analysis.planes.terms[index];
             let axis = analysis.axis_of(index).ok().map(|axis| axis.direction);
-            let error = axis.zip(reference).map(|(a, r)| angle_between_lines_rad(a, r));
+            let error = axis
+                .zip(reference)
+                .map(|(a, r)| angle_between_lines_rad(a, r.direction));
             PlaneFacts {
                 g: candidate.g,
                 h: candidate.h,
@@ -128,6 +133,7 @@ impl Planes {
             facts: facts.collect(),
             scale: score_scale(analysis),
             analysis: analysis.clone(),
+            against: reference.map(|axis| axis.source.in_words()),
         }
     }
 

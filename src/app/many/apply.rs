@@ -29,10 +29,6 @@ impl Many {
                 cx.state.many.filter = *filter;
                 cx.state.many.reorder();
             }
-            ManyCommand::Against(choice) => {
-                cx.state.many.against = choice;
-                cx.state.many.reorder();
-            }
             ManyCommand::GoWorse(by) => go_worse(by, cx),
             ManyCommand::Picture(places) => self.want_pictures(&places, cx),
             ManyCommand::SweepRanges(ranges) => cx.state.many.sweep.ranges = *ranges,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::cloud_rows::{Filter, Sort};
 use super::sweep_ranges::SweepRanges;
-use crate::evaluate::{CloudTags, TruthChoice};
+use crate::evaluate::CloudTags;
 
 /// Something that is asked of the set of clouds.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,8 +17,6 @@ pub enum ManyCommand {
     Sort(Sort),
     /// Show some of the clouds only.
     Filter(Box<Filter>),
-    /// Measure errors against another reference.
-    Against(TruthChoice),
     /// Show the cloud that is so many places further on in the order of errors, least first.
     GoWorse(isize),
     /// Draw small pictures of these clouds, which are in sight, by their places in the list.

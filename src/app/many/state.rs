@@ -66,7 +66,7 @@ pub struct ManyState {
     pub sort: Sort,
     /// The filter that was asked for.
     pub filter: Filter,
-    /// The reference of the errors in charts, gallery, filter and results.
+    /// The reference of every error and every reference line in the window, and of the results.
     pub against: TruthChoice,
     /// The progress of the evaluation; `None` if none is under way.
     pub progress: Option<EvaluationProgress>,

@@ -277,15 +277,28 @@ impl State {
         self.many.reorder();
     }
 
-    /// The cloud `by` places further on, as the table has them.
+    /// The cloud `by` places further on: as the table has them, but in the order of opening while axes are set or
+    /// results are hidden. A table that is sorted by error would tell the annotator something, and a filter would
+    /// leave clouds out.
     pub fn neighbor(&self, by: isize) -> Option<usize> {
-        self.many.neighbor(self.current?, by)
+        let current = self.current?;
+        if !self.goes_in_order_of_opening() {
+            return self.many.neighbor(current, by);
+        }
+        let last = self.entries.len().checked_sub(1)?;
+        let place = current.saturating_add_signed(by).min(last);
+        (place != current).then_some(place)
+    }
+
+    /// Whether the next cloud is that of the list, whatever the table's order and filter.
+    pub fn goes_in_order_of_opening(&self) -> bool {
+        self.true_axes.is_editing || self.true_axes.is_blind
     }
 }
 
 impl ManyState {
     /// Makes the table's order anew.
-    pub(super) fn reorder(&mut self) {
+    pub(in crate::app) fn reorder(&mut self) {
         self.order = Arc::new(ordered(&self.rows, self.sort, &self.filter, self.against));
         self.missing = self
             .rows

@@ -33,6 +33,7 @@ impl TrueAxes {
             TrueAxesCommand::WithoutName => axes.asks_name = false,
             TrueAxesCommand::Role(role) => axes.role = role,
             TrueAxesCommand::Blind(on) => blind(cx, on),
+            TrueAxesCommand::ResultsShown => self.note_results(cx),
             TrueAxesCommand::ShowAll(on) => axes.shows_all = on && !axes.is_blind,
 
             TrueAxesCommand::Hover(landing) => axes.landing = landing,
@@ -94,7 +95,6 @@ impl TrueAxes {
             TrueAxesCommand::CompareSet => self.compare_set(cx),
             TrueAxesCommand::CancelSet => self.cancel_set(cx),
             TrueAxesCommand::Decide(decision) => self.decide(cx, &decision),
-            TrueAxesCommand::CompareWith(source) => axes.compared = Some(source),
         }
     }
 
@@ -278,7 +278,6 @@ fn blind(cx: &mut Context, on: bool) {
     cx.state.true_axes.is_blind = on;
     if on {
         cx.state.true_axes.shows_all = false;
-        cx.state.true_axes.compared = None;
         cx.state.is_playing = false;
         cx.state.previewed = None;
         cx.state.tool = Tool::Navigate;

@@ -3,6 +3,7 @@
 use super::commands::TrueAxesCommand::{ShowAll, Start};
 use crate::app::command::Command;
 use crate::app::estimators::EstimatorsCommand;
+use crate::app::many::ManyCommand;
 use crate::app::state::State;
 use crate::app::tool::Tool;
 use crate::view::{Coloring, Overlay, Style, ViewPreset};
@@ -50,6 +51,13 @@ impl State {
     }
 }
 
+impl State {
+    /// Whether results of the open clouds that a panel shows are still to be counted as seen.
+    pub fn has_unseen_results(&self) -> bool {
+        !self.true_axes.is_blind && self.true_axes.seen_rows != Some(self.many.generation)
+    }
+}
+
 impl Command {
     /// Whether it shows what was computed, or is about that alone.
     pub fn reveals(&self) -> bool {
@@ -65,6 +73,7 @@ impl Command {
                 | Self::View(ViewPreset::Normal | ViewPreset::Axis)
                 | Self::Estimators(EstimatorsCommand::Count(_) | EstimatorsCommand::Show(_, true))
                 | Self::TrueAxes(Start(_) | ShowAll(true))
+                | Self::Many(ManyCommand::GoWorse(_))
         )
     }
 }

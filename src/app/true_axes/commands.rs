@@ -5,7 +5,6 @@ use glam::{DVec2, DVec3};
 use super::handles::{EditView, Handle};
 use super::state::Ghost;
 use crate::annotate::{Confidence, Ends, Method, Pivot, Role};
-use crate::method::AxisSource;
 
 /// A direction in which an axis is turned, as seen in the large view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +39,8 @@ pub enum TrueAxesCommand {
     Role(Role),
     /// Hide everything computed, or show it.
     Blind(bool),
+    /// The results of the open clouds are on the screen: as a table, charts, pictures or a map.
+    ResultsShown,
     /// Draw everybody's axes, or only one's own.
     ShowAll(bool),
 
@@ -101,6 +102,4 @@ pub enum TrueAxesCommand {
     CancelSet,
     /// Set the adjudicated axis.
     Decide(Decision),
-    /// Measure errors against the reference of that source.
-    CompareWith(AxisSource),
 }

@@ -8,6 +8,7 @@ mod blind;
 pub(super) mod commands;
 mod handles;
 mod scenes;
+mod seen;
 pub(super) mod state;
 mod stores;
 mod subject;
@@ -42,6 +43,10 @@ pub(super) struct TrueAxes {
     set: Lane<Result<SetReport, Cancelled>>,
     mine: Lane<Vec<bool>>,
     mine_asked: Option<(Author, usize, Option<PathBuf>)>,
+    /// Writes which clouds were shown with results.
+    seen_writes: Queue<(), Result<(), String>>,
+    /// The file for that.
+    seen_file: Option<PathBuf>,
 }
 
 impl TrueAxes {
@@ -56,11 +61,17 @@ impl TrueAxes {
             set: Lane::new(pool),
             mine: Lane::new(pool),
             mine_asked: None,
+            seen_writes: Queue::new(pool, ()),
+            seen_file: None,
         }
     }
 
     /// Whether a result is still to come or to be taken.
     pub(super) fn is_busy(&self) -> bool {
-        self.stores.is_busy() || self.scenes.is_busy() || self.set.is_busy() || self.mine.is_busy()
+        self.stores.is_busy()
+            || self.scenes.is_busy()
+            || self.set.is_busy()
+            || self.mine.is_busy()
+            || self.seen_writes.is_busy()
     }
 }

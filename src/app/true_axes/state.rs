@@ -14,7 +14,6 @@ use crate::annotate::{
 };
 use crate::app::inspector::stages::AnalyzedFruit;
 use crate::geometry::{Extent, Unit};
-use crate::method::AxisSource;
 use crate::render::{Camera, Scene};
 use crate::undo::History;
 
@@ -187,8 +186,6 @@ pub struct TrueAxesState {
     pub set_progress: Option<f64>,
     /// For each open cloud whether this annotator has set its axis; empty while that is not known.
     pub mine: Arc<Vec<bool>>,
-    /// The reference axis that was chosen by its source.
-    pub compared: Option<AxisSource>,
     /// The locked views, from the front, from the side and end-on, in edit mode.
     pub locked: Option<[Camera; 3]>,
     /// The scene of the locked views.
@@ -197,6 +194,8 @@ pub struct TrueAxesState {
     pub ghost_scene: Option<Arc<Scene>>,
     /// Clouds, by their hashes, that were shown with what is computed.
     pub(super) seen: HashSet<String>,
+    /// The state of the open clouds' rows, by its number, that was shown last.
+    pub(super) seen_rows: Option<u64>,
 }
 
 impl TrueAxesState {
@@ -228,11 +227,11 @@ impl TrueAxesState {
             set: None,
             set_progress: None,
             mine: Arc::default(),
-            compared: None,
             locked: None,
             small_scene: None,
             ghost_scene: None,
             seen: HashSet::new(),
+            seen_rows: None,
         }
     }
 

@@ -7,6 +7,7 @@ use std::time::Duration;
 use super::TrueAxes;
 use super::agreement::{compare, set_by};
 use super::scenes::{Scenes, Wanted, scenes};
+use super::seen;
 use super::state::{Ghost, Saving};
 use super::stores::{AxisCloud, AxisStores, Change, Status, apply};
 use super::views::locked_cameras;
@@ -27,7 +28,8 @@ impl TrueAxes {
     pub(in crate::app) fn update(&mut self, cx: &mut Context) {
         self.take_statuses(cx);
         self.turn_to_subject(cx);
-        note_seen(&mut cx.state);
+        self.note_current(cx);
+        self.take_seen_writes(cx);
         self.ask_for_mine(&mut cx.state);
         self.take_set(cx);
     }
@@ -35,7 +37,9 @@ impl TrueAxes {
     /// Waits until every edit of an axis is written.
     pub(in crate::app) fn finish(&mut self, cx: &mut Context) {
         self.stores.finish();
+        self.seen_writes.finish();
         self.take_statuses(cx);
+        self.take_seen_writes(cx);
     }
 
     /// Sets the locked cameras, and asks for the views of edit mode.
@@ -107,6 +111,62 @@ impl TrueAxes {
     pub(super) fn cancel_set(&mut self, cx: &mut Context) {
         self.set.cancel();
         cx.state.true_axes.set_progress = None;
+    }
+
+    /// Keeps in a file which clouds were shown with results, and takes over what it holds.
+    pub(in crate::app) fn keep_seen_in(&mut self, path: PathBuf, cx: &mut Context) {
+        match seen::read(&path) {
+            Ok(seen) => cx.state.true_axes.seen.extend(seen),
+            Err(problem) => cx.say(true, problem),
+        }
+        self.seen_file = Some(path);
+    }
+
+    /// Notes that results of all rows are on the screen.
+    pub(super) fn note_results(&self, cx: &mut Context) {
+        if cx.state.true_axes.is_blind {
+            return;
+        }
+        cx.state.true_axes.seen_rows = Some(cx.state.many.generation);
+        let rows = cx.state.many.rows.iter();
+        let hashes = rows.filter_map(|row| {
+            let outcome = row.outcome.as_ref()?;
+            outcome.row().sha256.clone()
+        });
+        let hashes: Vec<String> = hashes.collect();
+        self.note_seen(&mut cx.state, hashes);
+    }
+
+    /// Notes that the current cloud is shown with what is computed: its axis is not set blindly afterwards.
+    fn note_current(&self, cx: &mut Context) {
+        let state = &mut cx.state;
+        let has_analysis = state.look.as_ref().is_some_and(|look| look.analysis.is_some());
+        let subject = state.true_axes.subject.as_ref();
+        let Some(sha256) = subject.map(|subject| subject.cloud.sha256.clone()) else {
+            state.true_axes.was_seen = false;
+            return;
+        };
+        if !state.true_axes.is_blind && has_analysis && !state.true_axes.seen.contains(&sha256) {
+            self.note_seen(state, vec![sha256.clone()]);
+        }
+        state.true_axes.was_seen = state.true_axes.seen.contains(&sha256);
+    }
+
+    fn note_seen(&self, state: &mut State, mut hashes: Vec<String>) {
+        hashes.retain(|sha256| state.true_axes.seen.insert(sha256.clone()));
+        if let Some(path) = self.seen_file.clone().filter(|_| !hashes.is_empty()) {
+            self.seen_writes.submit(move |()| seen::append(&path, &hashes));
+        }
+    }
+
+    fn take_seen_writes(&self, cx: &mut Context) {
+        while let Some((_, answer)) = self.seen_writes.take_within(Duration::ZERO) {
+            match answer {
+                Ok(Ok(())) => {}
+                Ok(Err(problem)) => cx.say(true, problem),
+                Err(crash) => cx.say(true, sentence(&crash.to_string())),
+            }
+        }
     }
 
     fn take_statuses(&mut self, cx: &mut Context) {
@@ -237,18 +297,4 @@ fn refresh_references(state: &mut State) {
         state.walked = Some(Arc::new(walked));
         state.take_current_row();
     }
-}
-
-/// Notes that a cloud was shown with what is computed: its axis is not set blindly afterwards.
-fn note_seen(state: &mut State) {
-    let has_analysis = state.look.as_ref().is_some_and(|look| look.analysis.is_some());
-    let axes = &mut state.true_axes;
-    let Some(subject) = &axes.subject else {
-        axes.was_seen = false;
-        return;
-    };
-    if !axes.is_blind && has_analysis {
-        axes.seen.insert(subject.cloud.sha256.clone());
-    }
-    axes.was_seen = axes.seen.contains(&subject.cloud.sha256);
 }

@@ -30,7 +30,7 @@ fn described(timed: &TimedEstimate, examined: &Examination) -> String {
     if let Some((error_deg, reference)) = timed.error_deg(&examined.references).zip(reference) {
         parts.push(format!(
             "error {error_deg:.2}° to {}",
-            axis_name(&reference.source)
+            reference.source.in_words()
         ));
     }
     if let (Some(share), Some(occlusion)) = (estimate.seen_share, estimate.occlusion) {
@@ -178,13 +178,12 @@ fn write_references(out: &mut impl Write, examined: &Examination) -> std::io::Re
         }
     }
     for reference in references {
-        let (name, source) = match &reference.source {
-            AxisSource::Simulation => ("True axis", "the simulator's".to_owned()),
-            source @ (AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated) => {
-                ("Axis by hand", axis_name(source))
-            }
+        let name = match &reference.source {
+            AxisSource::Simulation => "True axis",
+            AxisSource::Annotator(_) | AxisSource::Annotators(_) | AxisSource::Adjudicated => "Axis by hand",
             _ => continue,
         };
+        let source = reference.source.in_words();
         row(
             out,
             name,
@@ -193,19 +192,6 @@ fn write_references(out: &mut impl Write, examined: &Examination) -> std::io::Re
         row(out, "Error", &error_to(reference))?;
     }
     Ok(())
-}
-
-/// Returns the name of a reference axis in a sentence.
-fn axis_name(source: &AxisSource) -> String {
-    match source {
-        AxisSource::Simulation => "the true axis".into(),
-        AxisSource::Annotator(name) => format!("{name}'s"),
-        AxisSource::Annotators(count) => format!("the mean of {count} annotators"),
-        AxisSource::Adjudicated => "the one decided on".into(),
-        AxisSource::PeduncleDirection => "the peduncle's own direction".into(),
-        AxisSource::Peduncle => "the reference axis".into(),
-        source => source.name().into_owned(),
-    }
 }
 
 /// Writes the parts of an error; `scored` is the number of planes with a score.

@@ -2,10 +2,9 @@
 
 use egui::{ComboBox, RichText};
 
-use crate::app::{Command, State, TrueAxesCommand};
-use crate::evaluate::TruthChoice;
-use crate::method::AxisSource;
+use crate::app::{Command, State};
 use crate::ui::action::{Act, Action, Group};
+use crate::ui::widgets::reference;
 use crate::view::ViewPreset;
 
 /// Bars of less width have the places to look from in a menu.
@@ -60,7 +59,11 @@ pub fn show(ui: &mut egui::Ui, state: &State, actions: &[Action], acts: &mut Vec
                 acts.push(action.act.clone());
             }
         }
-        references(ui, state, acts);
+        if !state.true_axes.is_blind
+            && let Some(choice) = reference::choose(ui, state)
+        {
+            acts.push(Act::App(Command::Compare(choice)));
+        }
     });
 }
 
@@ -118,48 +121,4 @@ fn button(ui: &mut egui::Ui, text: &str, act: &Act, actions: &[Action], acts: &m
 
 fn tip(ctx: &egui::Context, action: &Action) -> String {
     format!("{} ({})", action.title, action.keys_text(ctx))
-}
-
-/// The choice of the reference that the error is measured against, if there are several.
-fn references(ui: &mut egui::Ui, state: &State, acts: &mut Vec<Act>) {
-    if state.references.len() < 2 || state.true_axes.is_blind {
-        return;
-    }
-    let name = |source: &AxisSource| -> String {
-        match source {
-            AxisSource::Simulation => "Simulated axis".into(),
-            AxisSource::PeduncleDirection => "Peduncle's direction".into(),
-            AxisSource::Annotator(name) => format!("{name}'s axis"),
-            AxisSource::Annotators(count) => format!("Mean of {count} annotators"),
-            AxisSource::Adjudicated => "Adjudicated axis".into(),
-            _ => "Peduncle's axis".into(),
-        }
-    };
-    let Some(current) = state.reference() else { return };
-    let response = ComboBox::from_id_salt("reference")
-        .selected_text(name(&current.source))
-        .width(120.0)
-        .show_ui(ui, |ui| {
-            for reference in &state.references {
-                let is_on = reference.source == current.source;
-                if ui.selectable_label(is_on, name(&reference.source)).clicked() {
-                    acts.push(Act::App(match &reference.source {
-                        // One annotator's is none of the usual choices.
-                        source @ AxisSource::Annotator(_) => {
-                            Command::TrueAxes(TrueAxesCommand::CompareWith(source.clone()))
-                        }
-                        AxisSource::Simulation => Command::Compare(TruthChoice::Truth),
-                        AxisSource::PeduncleDirection => Command::Compare(TruthChoice::PeduncleDirection),
-                        AxisSource::Annotators(_) | AxisSource::Adjudicated => {
-                            Command::TrueAxes(TrueAxesCommand::CompareWith(reference.source.clone()))
-                        }
-                        _ => Command::Compare(TruthChoice::Peduncle),
-                    }));
-                }
-            }
-        })
-        .response;
-    response
-        .on_hover_text("The reference that the computed axis is compared with")
-        .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Reference axis"));
 }

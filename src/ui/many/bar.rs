@@ -2,25 +2,20 @@
 
 use std::time::Duration;
 
-use egui::{Button, ProgressBar, Ui, vec2};
+use egui::{Button, ProgressBar, Ui};
 
 use super::PanelRequest;
 use crate::app::many::{EvaluationProgress, ManyCommand};
-use crate::app::{Command, State, TruthChoice};
-use crate::ui::widgets::controls::{Choice, choose};
+use crate::app::{Command, State};
+use crate::ui::widgets::reference;
 
 /// Shows the line.
 pub(in crate::ui) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<PanelRequest> {
-    let mut say = |command| commands.push(Command::Many(command));
     ui.horizontal_wrapped(|ui| {
-        evaluation(ui, state, &mut say);
+        evaluation(ui, state, &mut |command| commands.push(Command::Many(command)));
         ui.add_space(8.0);
         ui.label("Error against");
-        ui.allocate_ui(vec2(150.0, ui.spacing().interact_size.y), |ui| {
-            if let Some(choice) = against(ui, state.many.against) {
-                say(ManyCommand::Against(choice));
-            }
-        });
+        commands.extend(reference::choose(ui, state).map(Command::Compare));
         results(ui, state)
     })
     .inner
@@ -120,38 +115,6 @@ fn in_words(left: Duration) -> String {
     } else {
         format!("about {:.0} h left", (seconds / 3600.0).round())
     }
-}
-
-fn against(ui: &mut Ui, chosen: TruthChoice) -> Option<TruthChoice> {
-    let choices = vec![
-        Choice::new(
-            TruthChoice::Auto,
-            "the best known",
-            "The simulator's axis where there is one, else the one set by hand, else the peduncle's",
-        ),
-        Choice::new(
-            TruthChoice::Peduncle,
-            "the peduncle",
-            "The axis from the fruit center through the peduncle (§ 3.2)",
-        ),
-        Choice::new(
-            TruthChoice::PeduncleDirection,
-            "the peduncle's direction",
-            "The direction in which the peduncle itself runs",
-        ),
-        Choice::new(
-            TruthChoice::Truth,
-            "the simulation",
-            "The axis in NAME.truth.json",
-        ),
-        Choice::new(
-            TruthChoice::Manual,
-            "set by hand",
-            "The adjudicated axis, else the mean of the annotators'",
-        ),
-    ];
-    let tip = "What errors are measured against in charts, gallery and filter";
-    choose(ui, "Error against", &chosen, tip, choices)
 }
 
 /// Explains why a panel is empty.

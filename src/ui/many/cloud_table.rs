@@ -10,6 +10,7 @@ use egui::{
 use super::{PanelRequest, bar, filters, tagging};
 use crate::app::many::{Column, ManyCommand, Sort, TableRow};
 use crate::app::{Command, State};
+use crate::ui::widgets::arrows::take_arrows;
 use crate::ui::widgets::controls::warning_color;
 use crate::ui::widgets::rows::{ColumnHead, list, row, underline};
 
@@ -220,7 +221,7 @@ fn by_keys(ui: &Ui, keyboard: &Response, commands: &mut Vec<Command>) -> Option<
         vertical_arrows: true,
         ..EventFilter::default()
     };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(keyboard.id, arrows));
+    take_arrows(ui, keyboard, arrows);
     let pressed = |key| {
         let count = ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
         count.cast_signed()

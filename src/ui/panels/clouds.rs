@@ -36,19 +36,28 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Option<W
 
 fn steps(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let (count, current) = (state.entries.len(), state.current);
+    let order = if state.goes_in_order_of_opening() {
+        "this list"
+    } else {
+        "the order of the table"
+    };
     ui.horizontal(|ui| {
         let can_go_back = state.neighbor(-1).is_some();
         let can_go_on = state.neighbor(1).is_some();
         if ui
             .add_enabled(can_go_back, Button::new("Previous"))
-            .on_hover_text("The previous cloud in the order of the table, from the same side as this one.")
+            .on_hover_text(format!(
+                "The previous cloud in {order}, from the same side as this one."
+            ))
             .clicked()
         {
             commands.push(Command::Go(-1));
         }
         if ui
             .add_enabled(can_go_on, Button::new("Next"))
-            .on_hover_text("The next cloud in the order of the table, from the same side as this one.")
+            .on_hover_text(format!(
+                "The next cloud in {order}, from the same side as this one."
+            ))
             .clicked()
         {
             commands.push(Command::Go(1));

@@ -1,5 +1,7 @@
 //! Every candidate normal on a hemisphere: one dot per plane, seen from the camera's side unless turned.
 
+use std::borrow::Cow;
+
 use egui::{Color32, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use glam::DVec3;
 
@@ -79,8 +81,12 @@ fn entries(state: &State, planes: &Planes) -> Vec<(Mark, &'static str)> {
     if chosen_axis(state, planes).is_some() {
         entries.push((Mark::Line(AXIS_COLOR), "axis"));
     }
-    if state.reference().is_some() {
-        entries.push((Mark::Line(REFERENCE_COLOR), "reference"));
+    if let Some(reference) = state.reference() {
+        let name = match reference.source.in_words() {
+            Cow::Borrowed(words) => words.strip_prefix("the ").unwrap_or(words),
+            Cow::Owned(_) => "reference",
+        };
+        entries.push((Mark::Line(REFERENCE_COLOR), name));
     }
     entries
 }

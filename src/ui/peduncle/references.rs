@@ -137,7 +137,9 @@ pub(in crate::ui) fn beside(ui: &mut Ui, state: &State, commands: &mut Vec<Comma
         Err(why) => why.clone(),
         Ok(errors) => {
             let of = errors.iter().find(|(s, _)| Some(s) == source);
-            of.map_or("no reference".into(), |(_, error)| format!("{error:.1}° off"))
+            of.map_or("no reference".into(), |(source, error)| {
+                format!("{error:.1}° off {}", source.in_words())
+            })
         }
     };
     Grid::new("with and without")

@@ -30,6 +30,16 @@ pub(in crate::ui) fn ask_name(ctx: &egui::Context, state: &State, commands: &mut
             let text = RichText::new(sentence(&problem.to_string()));
             ui.label(text.color(ui.visuals().error_fg_color));
         }
+        let mut is_blind = state.true_axes.is_blind;
+        let tip =
+            "Hide everything computed and the axes of other annotators, so that they do not draw your hand.";
+        if ui
+            .checkbox(&mut is_blind, "Set axes blind")
+            .on_hover_text(tip)
+            .changed()
+        {
+            say(commands, TrueAxesCommand::Blind(is_blind));
+        }
         ui.add_space(8.0);
         let is_entered = ui.input(|i| i.key_pressed(Key::Enter));
         ui.horizontal(|ui| {

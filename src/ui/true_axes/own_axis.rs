@@ -238,7 +238,7 @@ fn ghost(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 }
 
 fn said(ui: &mut Ui, state: &State, judgment: &Judgment, commands: &mut Vec<Command>) {
-    row(ui, "Confidence", "How sure you are (Ctrl+1, 2, 3).", |ui| {
+    row(ui, "Confidence", "How sure you are (F2, F3, F4).", |ui| {
         for (value, text) in [
             (Confidence::LOW, "low"),
             (Confidence::MEDIUM, "medium"),

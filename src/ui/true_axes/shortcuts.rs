@@ -174,18 +174,18 @@ fn editing(state: &State) -> Vec<Action> {
         ),
         (
             action("Confidence low", confidence(Confidence::LOW)).when(has_said),
-            CTRL,
-            Key::Num1,
+            NONE,
+            Key::F2,
         ),
         (
             action("Confidence medium", confidence(Confidence::MEDIUM)).when(has_said),
-            CTRL,
-            Key::Num2,
+            NONE,
+            Key::F3,
         ),
         (
             action("Confidence high", confidence(Confidence::HIGH)).when(has_said),
-            CTRL,
-            Key::Num3,
+            NONE,
+            Key::F4,
         ),
         (
             action("Try to save again", TrueAxesCommand::TryAgain).when(annotating.has_failed()),

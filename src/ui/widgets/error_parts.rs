@@ -48,7 +48,8 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         .zip(values)
         .map(|((name, ..), value)| format!("{value:.1}° {name}"))
         .collect();
-    let text = format!("Error {error:.1}° = {}", words.join(" + "));
+    let against = reference.source.in_words();
+    let text = format!("Error {error:.1}° against {against} = {}", words.join(" + "));
     let label = ui.add(Label::new(text).sense(Sense::click()));
     if label.on_hover_ui(|ui| details(ui, parts, values)).clicked() {
         let nearest = &parts.nearest_candidate;

@@ -1,5 +1,6 @@
 //! The parts that panels share.
 
+pub(super) mod arrows;
 pub(super) mod color_scale;
 pub(super) mod controls;
 pub(super) mod error_parts;
@@ -8,4 +9,5 @@ pub(super) mod memo;
 pub(super) mod notice;
 pub(super) mod plane_tip;
 pub(super) mod progress;
+pub(super) mod reference;
 pub(super) mod rows;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use egui::{Context, EventFilter, Id, Key, Modifiers, Response, Ui};
 
+use super::arrows::take_arrows;
 use super::memo::{ByAddress, memo};
 use crate::app::inspector::planes::{PlaneFacts, Planes};
 use crate::app::{Command, State};
@@ -11,8 +12,8 @@ use crate::app::{Command, State};
 /// Returns the planes of the newest analysis, computed anew only if it or the reference has changed.
 pub fn planes_of(ctx: &Context, state: &State) -> Option<Arc<Planes>> {
     let analysis = state.analysis()?;
-    let reference = state.reference().map(|reference| reference.direction);
-    let key = (ByAddress(analysis.clone()), reference);
+    let reference = state.reference();
+    let key = (ByAddress(analysis.clone()), reference.cloned());
     let id = Id::unique("planes of the newest analysis");
     Some(memo(ctx, id, key, || Planes::new(analysis, reference)))
 }
@@ -34,9 +35,12 @@ fn score_words(facts: &PlaneFacts) -> String {
 }
 
 /// Returns the axis's error, or the reason why there is none.
-fn error_words(facts: &PlaneFacts) -> String {
+fn error_words(planes: &Planes, facts: &PlaneFacts) -> String {
     match (facts.axis, facts.error_deg) {
-        (_, Some(error)) => format!("{error:.1}°"),
+        (_, Some(error)) => match &planes.against {
+            Some(reference) => format!("{error:.1}° off {reference}"),
+            None => format!("{error:.1}°"),
+        },
         (None, _) => "no axis: the normal lies along the view ray".into(),
         (Some(_), None) => "no reference to compare with".into(),
     }
@@ -61,8 +65,8 @@ pub fn line(planes: &Planes, index: usize) -> String {
         score = format!("score {}, {score}", score_words(facts));
     }
     let error = match facts.error_deg {
-        Some(error) => format!("axis error {error:.1}°"),
-        None => error_words(facts),
+        Some(_) => format!("axis {}", error_words(planes, facts)),
+        None => error_words(planes, facts),
     };
     let partners = partner_words(planes, facts, " points have a partner");
     format!("{score} · {partners} · {error}")
@@ -83,7 +87,7 @@ fn table(ui: &mut Ui, planes: &Planes, index: usize) {
         ("Points with a partner", partner_words(planes, facts, "")),
         ("Mean distance d", mean_distance.unwrap_or_else(none)),
         ("Mean angle ξ", mean_angle.unwrap_or_else(none)),
-        ("Axis error", error_words(facts)),
+        ("Axis error", error_words(planes, facts)),
     ];
     egui::Grid::new("plane facts").num_columns(2).show(ui, |ui| {
         for (name, value) in rows {
@@ -148,7 +152,7 @@ pub fn arrow_presses(ui: &Ui, response: &Response) -> [isize; 2] {
         vertical_arrows: true,
         ..EventFilter::default()
     };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    take_arrows(ui, response, arrows);
     let pressed = |key| {
         let count = ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
         count.cast_signed()

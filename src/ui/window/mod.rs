@@ -163,6 +163,14 @@ impl Window {
         self.take_files(&ctx, &mut acts);
         let all = actions(self.app.state());
         self.take_keys(&ctx, &all, &mut acts);
+        // It has the keyboard from this frame on.
+        if let Some(at) = acts
+            .iter()
+            .position(|act| *act == Act::Window(WindowAct::Palette))
+        {
+            acts.remove(at);
+            self.act(&ctx, WindowAct::Palette);
+        }
 
         let mut commands = Vec::new();
         Panel::top("menu").show(ui, |ui| menu::show(ui, self.app.state(), &all, &mut acts));

@@ -37,17 +37,25 @@ fn cache_path() -> Option<PathBuf> {
     Some(folders.cache_dir().join("clouds"))
 }
 
-/// Opens a window on `paths`, or on the clouds of the last session, or on a sample; returns when it is closed.
+/// Returns the file of the clouds that were shown with results; `None` without a home directory.
+fn seen_path() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "axiscope")?;
+    Some(folders.data_dir().join("shown-with-results.txt"))
+}
+
+/// Opens a window on `paths`, or on the clouds of the last session, or on a sample; returns when it is closed. With
+/// `is_blind` nothing computed is shown from the first frame on.
 ///
 /// # Errors
 /// Returns an error if no display or no graphics adapter is available.
-pub fn open_window(paths: Vec<PathBuf>) -> Result<(), OpenError> {
+pub fn open_window(paths: Vec<PathBuf>, is_blind: bool) -> Result<(), OpenError> {
     let session_path = session_path();
-    let (session, problem) = match session_path.as_deref().map(Session::read) {
+    let (mut session, problem) = match session_path.as_deref().map(Session::read) {
         None => (Session::first(), None),
         Some(Ok(session)) => (session, None),
         Some(Err(error)) => (Session::first(), Some(format!("{error}."))),
     };
+    session.true_axes.is_blind |= is_blind;
     let size = session.window_size.unwrap_or([1360.0, 860.0]);
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     // OpenGL cannot draw the points: an error message is better than a crash.
@@ -80,6 +88,9 @@ pub fn open_window(paths: Vec<PathBuf>) -> Result<(), OpenError> {
             let mut window = Window::new(context, start)?;
             if let Some(folder) = cache_path() {
                 window.app_mut().keep_rows_in(folder);
+            }
+            if let Some(path) = seen_path() {
+                window.app_mut().keep_seen_in(path);
             }
             Ok(Box::new(window))
         }),

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use egui::{Key, Modal, Modifiers, RichText};
+use egui::{Event, Id, Key, Modal, Modifiers, RichText};
 
 use crate::ui::action::{Act, Action};
 
@@ -13,9 +13,14 @@ pub struct Palette {
     chosen: usize,
 }
 
+fn field_id() -> Id {
+    Id::unique("the palette's field")
+}
+
 impl Palette {
     /// Shows the palette; breaks when it closes, with the chosen act if there is one.
     pub fn show(&mut self, ctx: &egui::Context, actions: &[Action]) -> ControlFlow<Option<Act>> {
+        self.take_early_letters(ctx);
         let found: Vec<&Action> = actions.iter().filter(|a| self.matches(a)).collect();
         self.chosen = self.chosen.min(found.len().saturating_sub(1));
         // The palette takes these keys before the field does.
@@ -37,6 +42,7 @@ impl Palette {
             ui.set_width(420.0_f32.min(ctx.content_rect().width() - 60.0));
             let label = ui.label("Find a command");
             let field = egui::TextEdit::singleline(&mut self.text)
+                .id(field_id())
                 .hint_text("Type a part of its name")
                 .desired_width(f32::INFINITY);
             let response = ui.add(field).labelled_by(label.id);
@@ -75,6 +81,22 @@ impl Palette {
             _ if modal.should_close() => ControlFlow::Break(None),
             _ => ControlFlow::Continue(()),
         }
+    }
+
+    /// Takes letters that were typed before the field has the keyboard, in the frame in which the palette opens.
+    fn take_early_letters(&mut self, ctx: &egui::Context) {
+        if ctx.memory(|memory| memory.has_focus(field_id())) {
+            return;
+        }
+        ctx.input_mut(|input| {
+            input.events.retain(|event| match event {
+                Event::Text(letters) => {
+                    self.text.push_str(letters);
+                    false
+                }
+                _ => true,
+            });
+        });
     }
 
     /// Whether every word of the text is part of the action's name.

@@ -136,6 +136,9 @@ impl Panes<'_> {
             }
             Pane::Contributions => contributions::show(ui, state, commands),
             Pane::Table | Pane::Charts | Pane::Gallery | Pane::Sweep => {
+                if state.has_unseen_results() {
+                    commands.push(Command::TrueAxes(TrueAxesCommand::ResultsShown));
+                }
                 if let Some(answer) = many::show(ui, pane, state, commands) {
                     self.acts.push(Act::Window(match answer {
                         PanelRequest::ShowView => WindowAct::Show(Pane::View),

@@ -6,8 +6,9 @@ use egui::{Event, Key, KeyboardShortcut, Memory, Popup};
 
 use super::Window;
 use crate::app::Command;
-use crate::ui::action::{Act, Action, Group};
+use crate::ui::action::{Act, Action, Group, WindowAct};
 use crate::ui::inspector::plane_bar::walks_by_rank;
+use crate::ui::widgets::arrows::arrows_walk;
 
 impl Window {
     /// Collects the acts of the keys pressed in this frame.
@@ -33,8 +34,8 @@ impl Window {
                     key.logical_key,
                     Key::Space | Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown
                 );
-            // But the arrows turn the axis although a button was clicked.
-            let turns_axis = action.group == Group::TrueAxis;
+            // But the arrows turn the axis although a button was clicked, unless they walk through a list.
+            let turns_axis = action.group == Group::TrueAxis && !arrows_walk(ctx);
             if is_focused && is_widgets && !turns_axis {
                 continue;
             }
@@ -51,6 +52,7 @@ impl Window {
                 && action.is_enabled
                 && (is_first || action.repeats)
             {
+                let is_last = opens_dialog(&action.act);
                 acts.push(match action.act {
                     // Arrows step as the bar under the view does.
                     Act::App(Command::Step(by)) if by.abs() == 1 && walks_by_rank(ctx) => {
@@ -58,7 +60,19 @@ impl Window {
                     }
                     _ => action.act.clone(),
                 });
+                // Whatever else was typed in this frame is for the dialog.
+                if is_last {
+                    return;
+                }
             }
         }
     }
+}
+
+/// Whether an act opens something that has the keyboard from then on.
+fn opens_dialog(act: &Act) -> bool {
+    matches!(
+        act,
+        Act::Window(WindowAct::Palette | WindowAct::Help | WindowAct::About | WindowAct::SaveImage)
+    )
 }

@@ -7,6 +7,7 @@ use crate::estimate::Estimator;
 use crate::method::{Analysis, axis_error_rad};
 use crate::ui::widgets::controls::button;
 use crate::ui::widgets::progress::stage_progress;
+use crate::ui::widgets::reference;
 use crate::view::lead_in_words;
 
 /// Shows the bar.
@@ -68,11 +69,11 @@ fn result(ui: &mut egui::Ui, state: &State) {
     };
     match (state.counted_axis(), state.reference()) {
         (Some(axis), Some(reference)) => parts.push(format!(
-            "{name} {:.1}° off the {} axis",
+            "{name} {:.1}° off {}",
             axis_error_rad(axis, reference).to_degrees(),
-            reference_name(&reference.source.name())
+            reference.source.in_words()
         )),
-        (Some(_), None) => parts.push("no reference axis".into()),
+        (Some(_), None) => parts.push(reference::none_in_words(state.many.against).into()),
         (None, _) => parts.push("no axis".into()),
     }
     ui.label(parts.join(" · "));
@@ -89,18 +90,6 @@ fn strays_in_words(analysis: &Analysis) -> String {
         (count, false) => format!(" without {count} strays"),
         (1, true) => " with 1 stray".into(),
         (count, true) => format!(" with {count} strays"),
-    }
-}
-
-/// Returns the name of a reference's source.
-fn reference_name(source: &str) -> &str {
-    match source {
-        "simulation" => "simulated",
-        "peduncle" => "peduncle's",
-        "peduncle-direction" => "peduncle's own",
-        "adjudicated" => "adjudicated",
-        other if other.starts_with("annotators:") => "annotators' mean",
-        other => other.strip_prefix("annotator:").unwrap_or(other),
     }
 }
 

@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use crate::helpers::driving::{act, app, asset, settle};
 use axiscope::annotate::{Annotation, Author, Confidence, Ends, Judgment, Method, Pivot, Role};
+use axiscope::app::many::{Column, Filter, ManyCommand, Sort};
 use axiscope::app::true_axes::{Decision, Draft, EditView, Ghost, Handle, Saving, Turn};
 use axiscope::app::{App, Command, Sample, Session, Tool, TrueAxesCommand, TruthChoice};
 use axiscope::method::AxisSource;

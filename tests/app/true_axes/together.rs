@@ -100,6 +100,90 @@ fn blind_mode_hides_everything_computed() {
     assert!(on_disk(&paths[1], &ada()).expect("a file").judgment.blind);
 }
 
+#[test]
+fn results_that_a_panel_showed_are_never_forgotten() {
+    let (folder, paths) = folder(3);
+    let seen = folder.path().join("state").join("seen.txt");
+    let mut app = app();
+    app.keep_seen_in(seen.clone());
+    act(&mut app, Command::Open(paths.clone()));
+    act(&mut app, Command::Many(ManyCommand::Evaluate));
+    assert!(app.state().many.rows.iter().all(|row| row.outcome.is_some()));
+    // Nothing of the other two was on the screen yet.
+    let kept = || {
+        std::fs::read_to_string(&seen)
+            .expect("a file")
+            .split_whitespace()
+            .count()
+    };
+    assert_eq!(kept(), 1);
+    assert!(app.state().has_unseen_results());
+    annotate(&mut app, TrueAxesCommand::ResultsShown);
+    assert!(!app.state().has_unseen_results());
+    assert_eq!(kept(), 3);
+    drop(app);
+
+    // Another day, blind from the start.
+    let mut session = Session::first();
+    session.true_axes.is_blind = true;
+    session.true_axes.name = "Ada".into();
+    let blind_at = |seen: Option<PathBuf>, cloud: &Path| {
+        let mut app = App::new(session.clone(), &(std::sync::Arc::new(|| {}) as _)).expect("threads");
+        if let Some(seen) = seen {
+            app.keep_seen_in(seen);
+        }
+        app.set_view(Viewport::new(900.0, 700.0), 1.0, true);
+        act(&mut app, Command::Open(vec![cloud.to_owned()]));
+        annotate(&mut app, TrueAxesCommand::Edit(true));
+        set_by_clicks(&mut app);
+        on_disk(cloud, &ada()).expect("a file").judgment.blind
+    };
+    assert!(!blind_at(Some(seen), &paths[1]), "the table showed its error");
+    assert!(
+        blind_at(None, &paths[2]),
+        "without that file it would be said to be blind"
+    );
+}
+
+#[test]
+fn annotators_go_through_the_clouds_in_the_order_of_the_list() {
+    let (_folder, paths) = folder(3);
+    let mut app = editing(&paths);
+    let sort = Sort {
+        by: Column::Opened,
+        is_descending: true,
+    };
+    act(&mut app, Command::Many(ManyCommand::Sort(sort)));
+    let filter = Filter {
+        search: "pepper2".into(),
+        ..Filter::default()
+    };
+    act(&mut app, Command::Many(ManyCommand::Filter(Box::new(filter))));
+    act(&mut app, Command::Show(0));
+    act(&mut app, Command::Go(1));
+    assert_eq!(
+        app.state().current,
+        Some(1),
+        "not as yesterday's sort and filter have it"
+    );
+    annotate(&mut app, TrueAxesCommand::Edit(false));
+    act(&mut app, Command::Go(1));
+    assert_eq!(
+        app.state().current,
+        Some(2),
+        "elsewhere the table's order is followed"
+    );
+    annotate(&mut app, TrueAxesCommand::Blind(true));
+    act(&mut app, Command::Go(-1));
+    assert_eq!(app.state().current, Some(1));
+    act(&mut app, Command::Many(ManyCommand::GoWorse(1)));
+    assert_eq!(
+        app.state().current,
+        Some(1),
+        "an order by error would tell something"
+    );
+}
+
 /// An axis of somebody else, written by the library.
 fn set_as(author: &Author, cloud: &Path, ends: Ends) {
     let fruit = axiscope::fruit::Fruit::read(cloud, &axiscope::fruit::Request::default()).expect("a cloud");
@@ -136,17 +220,6 @@ fn annotators_are_compared_and_decided_between() {
     // Each is a reference under a name of its own.
     let cleo = AxisSource::Annotator("Cleo".into());
     assert!(app.state().references.iter().any(|axis| axis.source == cleo));
-    annotate(&mut app, TrueAxesCommand::CompareWith(cleo.clone()));
-    assert_eq!(app.state().reference().expect("one").source, cleo);
-    assert_eq!(
-        app.state()
-            .look
-            .as_ref()
-            .and_then(|l| l.reference.clone())
-            .expect("drawn")
-            .source,
-        cleo
-    );
     act(&mut app, Command::Compare(TruthChoice::Peduncle));
     assert_eq!(app.state().reference().expect("one").source, AxisSource::Peduncle);
 

@@ -87,11 +87,11 @@ pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     };
     parts(ui, state, commands);
     section(ui, "Why this axis?", true, false, |ui| {
-        reasons::show(ui, body, fitted)
+        reasons::show(ui, body, fitted);
     });
     section(ui, "Profile", true, false, |ui| charts::profile(ui, fitted));
     section(ui, "Outline in the image", true, false, |ui| {
-        charts::outline(ui, fitted)
+        charts::outline(ui, fitted);
     });
 }
 

@@ -198,7 +198,7 @@ pub fn choice_row<T: PartialEq>(
 }
 
 /// Shows a drop-down list; returns the new choice.
-pub fn choose<T: PartialEq>(
+fn choose<T: PartialEq>(
     ui: &mut Ui,
     name: &str,
     chosen: &T,

@@ -9,7 +9,7 @@ mod text;
 
 pub use buttons::{button, checkbox, toggle};
 pub use coordinates::{Coordinates, coordinates, decimals};
-pub use fields::{Choice, Number, SliderRow, choice_row, choose, count};
+pub use fields::{Choice, Number, SliderRow, choice_row, count};
 pub use request_edit::Edit;
 pub use section::{row, section};
 pub use text::{caution, hint, small, text_field, warning_color};
