@@ -48,7 +48,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Find the symmetry plane and axis of one cloud
-    Analyze(analyze::Analyze),
+    Analyze(Box<analyze::Analyze>),
     /// Draw the 3-D view of one cloud as a PNG, without a window
     #[cfg(feature = "window")]
     Render(Box<render::Render>),
