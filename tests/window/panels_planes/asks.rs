@@ -183,7 +183,10 @@ fn the_ranking_takes_the_error_apart_and_leads_to_the_nearest_candidate() {
     let mut harness = harness(app, ranking::show, vec2(640.0, 300.0), Theme::Dark, 1.0);
     let [error, choice] = [parts.error_deg, parts.choice_part_deg].map(|part| part.expect("an axis"));
     let (lean, grid) = (parts.lean_part_deg, parts.grid_part_deg);
-    let text = format!("Error {error:.1}° = {lean:.1}° lean + {grid:.1}° grid + {choice:.1}° choice");
+    let against = "the simulated axis";
+    let text = format!(
+        "Error {error:.1}° against {against} = {lean:.1}° lean + {grid:.1}° grid + {choice:.1}° choice"
+    );
     harness.get_by_label(&text).hover();
     // A tooltip waits.
     harness.run_steps(20);
