@@ -5,9 +5,9 @@
 //! frame ───▶ App::update ─▶ each part's update ─▶ jobs of analyses and looks ─▶ scene ─▶ what is drawn
 //! ```
 //!
-//! The parts are rooms of their own: the [`inspector`] of one cloud, its estimates by other [`estimators`], its [`peduncle`], its [`true_axes`], and the
-//! [`many`] open clouds together. Each has commands, jobs, and a part of the [`State`]; [`App`] lends them what they
-//! share, in turn.
+//! The parts are rooms of their own: the [`inspector`] of one cloud, its axes by other [`estimators`], its [`peduncle`],
+//! its [`true_axes`], and the [`many`] open clouds together. Each has commands, jobs, and a part of the [`State`]; [`App`]
+//! lends them what they share, in turn.
 //!
 //! It knows no window toolkit: whatever draws it calls [`App::update`] once a frame, reads [`State`], and hands in
 //! [`Command`]s.

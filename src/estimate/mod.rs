@@ -26,7 +26,7 @@ pub use directions::half_sphere;
 pub use estimator::{EstimateSettings, Estimator, InvalidPrior, Prior, estimate};
 pub use least_squares::{LeastSquares, Linearized, Minimum, Options, minimize};
 use outcome::lead_over;
-pub use outcome::{Alternative, Estimate, EstimateError, Occlusion};
+pub use outcome::{Alternative, Estimate, EstimateError, Occlusion, SEEN_SHARE_SD};
 pub use sample::Sample;
 pub use surface::Surface;
 pub use view::View;

@@ -8,6 +8,9 @@ use crate::geometry::angle_between_lines_rad;
 use crate::method::{AxisEstimate, AxisSource};
 use crate::parallel::Cancelled;
 
+/// The standard deviation of the seen share, of 1, over simulated fruits with a leaf.
+pub const SEEN_SHARE_SD: f64 = 0.04;
+
 /// Why an estimator gives no estimate at all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum EstimateError {
@@ -83,8 +86,8 @@ pub struct Estimate {
     pub lead: Option<f64>,
     /// The other axes, the best first.
     pub alternatives: Vec<Alternative>,
-    /// The share of the fruit's cross-section in the image that is seen, 0 to 1, to within about 0.04; `None` if it is not
-    /// known.
+    /// The share of the fruit's cross-section in the image that is seen, 0 to 1, to within about [`SEEN_SHARE_SD`]; `None` if
+    /// it is not known.
     pub seen_share: Option<f64>,
     /// The class of `seen_share`; `None` if it is not known.
     pub occlusion: Option<Occlusion>,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::PointRow;
-use crate::method::{Candidate, PartnerSteps, Side};
+use crate::method::{Candidate, PartnerSteps};
 
 /// The steps of the method for one point under one plane (Eq. 12–15), in the file's unit and frame.
 #[derive(Debug, Clone, Serialize)]
@@ -48,10 +48,7 @@ impl PointReport {
             index: row.index_in_file,
             position: steps.position.to_array(),
             normal: steps.normal.to_array(),
-            side: match steps.side {
-                Side::Front => "front",
-                Side::Back => "back",
-            },
+            side: steps.side.name(),
             plane_distance_cm: steps.plane_distance_cm,
             reflection: steps.reflection.to_array(),
             reflected_normal: steps.reflected_normal.to_array(),

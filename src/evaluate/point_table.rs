@@ -65,13 +65,6 @@ pub fn point_table(rows: &[PointRow], unit: Unit, format: PointsFormat) -> Resul
     })
 }
 
-fn side_name(side: Side) -> &'static str {
-    match side {
-        Side::Front => "front",
-        Side::Back => "back",
-    }
-}
-
 /// A column's name, and its value in a row.
 type NamedColumn = (&'static str, fn(&PointRow) -> Value);
 
@@ -92,7 +85,7 @@ fn columns() -> Vec<Column<PointRow>> {
         steps.reflection
     });
     let rest: [NamedColumn; 7] = [
-        ("side", |row| Value::Text(Some(side_name(row.steps.side).into()))),
+        ("side", |row| Value::Text(Some(row.steps.side.name().into()))),
         ("plane_distance_cm", |row| {
             Value::Number(Some(row.steps.plane_distance_cm))
         }),

@@ -17,6 +17,16 @@ pub enum Side {
     Back,
 }
 
+impl Side {
+    /// Returns its name in tables and JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Back => "back",
+        }
+    }
+}
+
 /// The visible partner of a point, and its contribution to the score.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Partner {

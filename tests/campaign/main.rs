@@ -9,54 +9,19 @@ mod matrix;
 mod mutation;
 mod targets;
 
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 use axiscope::annotate::{Annotation, Author, CloudId, Confidence, Ends, Judgment, Store};
 use axiscope::geometry::Unit;
 use axiscope::ply::{Encoding, WriteOptions, write};
 use axiscope::simulate::EllipsoidSettings;
 use glam::DVec3;
-use rand::{RngExt, SeedableRng};
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
+use helpers::campaign::campaign;
 use helpers::disk::Disk;
 use mutation::mutated;
-
-/// Runs `case` with one generator after another until the time is over, and prints the number of cases and the program's
-/// memory.
-fn campaign(name: &str, mut case: impl FnMut(&mut ChaCha8Rng)) {
-    let number = |name: &str| {
-        std::env::var(name)
-            .ok()
-            .and_then(|value| value.parse::<u64>().ok())
-    };
-    let lasts = Duration::from_secs(number("AXISCOPE_CAMPAIGN_SECONDS").unwrap_or(2));
-    let first = number("AXISCOPE_CAMPAIGN_SEED").unwrap_or(0);
-    let (started, mut cases) = (Instant::now(), 0);
-    while started.elapsed() < lasts || cases == 0 {
-        let seed = first + cases;
-        let ran = catch_unwind(AssertUnwindSafe(|| case(&mut ChaCha8Rng::seed_from_u64(seed))));
-        if let Err(panic) = ran {
-            eprintln!("{name}: AXISCOPE_CAMPAIGN_SEED={seed} repeats this");
-            resume_unwind(panic);
-        }
-        cases += 1;
-    }
-    println!("{name}: {cases} cases, {} MB at most", peak_mb().unwrap_or(0));
-}
-
-/// The largest memory that the program has had, where Linux tells it.
-fn peak_mb() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    line.trim()
-        .trim_end_matches(" kB")
-        .parse::<u64>()
-        .ok()
-        .map(|kb| kb >> 10)
-}
 
 /// Small clouds in every encoding, and the files of other programs among the fixtures.
 fn ply_files() -> Vec<Vec<u8>> {

@@ -7,7 +7,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::helpers::bodies::{scattered, view};
-use crate::{campaign, targets};
+use crate::helpers::campaign::campaign;
+use crate::targets;
 
 fn params() -> Params {
     let mut params = Params::new(Preset::AsIntended, Unit::Centimeter);

@@ -129,6 +129,17 @@ fn a_point_that_cannot_be_shown_is_one_sentence() {
 }
 
 #[test]
+fn the_points_are_not_written_over_their_cloud() {
+    let folder = TempDir::new().expect("a folder");
+    let cloud = simulate(&folder, "pepper --seed 3", "pepper.ply");
+    let before = std::fs::read(&cloud).expect("a cloud");
+    let ran = analyze(&cloud, &format!("--points {}", cloud.display()));
+    assert_ne!(ran.status, 0);
+    assert!(ran.err.contains("write over the cloud itself"), "{}", ran.err);
+    assert_eq!(std::fs::read(&cloud).expect("still there"), before);
+}
+
+#[test]
 fn the_text_names_every_reference_with_its_error() {
     let folder = TempDir::new().expect("a folder");
     let cloud = simulate(&folder, "pepper --seed 3", "pepper.ply");

@@ -1,7 +1,7 @@
 //! The options of `axiscope analyze` for the points of one plane: one point's steps, and a table of all of them.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
 use axiscope::evaluate::{Examination, PointRow, PointsFormat, point_rows, point_table};
@@ -88,6 +88,9 @@ impl PointOptions {
         let detail = plane_detail(&analysis.surface, analysis.params.unit, plane, viewpoint, &())?;
         let mut rows = point_rows(examined, &detail);
         if let Some((path, format)) = self.points.as_ref().zip(format) {
+            if is_same_file(path, &examined.fruit.file.path) {
+                bail!("{}: --points would write over the cloud itself", path.display());
+            }
             output::write(path, &point_table(&rows, examined.fruit.unit, format)?)?;
         }
         let Some(wanted) = self.point else { return Ok(None) };
@@ -115,6 +118,12 @@ impl PointOptions {
             (None, WantedPoint::Nearest(_)) => bail!("no point is used"),
         }
     }
+}
+
+/// Whether two paths name one file that is there.
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    a.canonicalize()
+        .is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
 }
 
 /// Writes the steps of a point (Fig. 6).

@@ -1,12 +1,13 @@
 //! The simulator: sliders for the fruit, its pose and its scan, and the error that follows from them.
 
 use egui::{Color32, Id, Label, RichText, Slider as Bar, SliderClamping, Ui, UiBuilder, WidgetInfo, vec2};
-use egui_plot::{GridMark, Line, Plot, PlotBounds, Points};
+use egui_plot::{GridMark, Line, PlotBounds, Points};
 
 use crate::app::{Command, SimulatorCommand, Slider, SliderGroup, State};
 use crate::simulate::PepperSettings;
 use crate::ui::action::WindowAct;
 use crate::ui::widgets::controls::{Number, hint, section, small};
+use crate::ui::widgets::plot;
 
 /// The width of the labels, in logical pixels.
 const LABEL_WIDTH: f32 = 104.0;
@@ -109,7 +110,7 @@ fn chart(ui: &mut Ui, state: &State, settings: &PepperSettings) {
         .find(|top| highest <= *top)
         .unwrap_or(90.0);
     let has_slider = slider.is_some();
-    let plot = Plot::new(("error over a slider", slider))
+    let plot = plot::still(ui, ("error over a slider", slider))
         .x_axis_label(name.clone())
         .y_axis_label("Error (°)")
         .y_axis_min_width(40.0)
@@ -117,14 +118,6 @@ fn chart(ui: &mut Ui, state: &State, settings: &PepperSettings) {
         .show_grid(has_slider)
         .x_grid_spacer(move |_| marks(left, right, 2))
         .y_grid_spacer(move |_| marks(0.0, top, 2))
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .grid_color(ui.visuals().text_color().gamma_multiply(0.3))
-        .label_formatter(|_| None)
-        .show_x(false)
-        .show_y(false)
         .height(CHART_HEIGHT);
     let answer = plot.show(ui, |plot| {
         let margin = [0.03 * (right - left), 0.06 * top];

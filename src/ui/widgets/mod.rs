@@ -8,6 +8,7 @@ pub(super) mod marks;
 pub(super) mod memo;
 pub(super) mod notice;
 pub(super) mod plane_tip;
+pub(super) mod plot;
 pub(super) mod progress;
 pub(super) mod reference;
 pub(super) mod rows;

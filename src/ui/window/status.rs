@@ -74,6 +74,9 @@ fn result(ui: &mut egui::Ui, state: &State) {
             reference.source.in_words()
         )),
         (Some(_), None) => parts.push(reference::none_in_words(state.many.against).into()),
+        (None, _) if state.estimators.is_pending && state.estimators.counts == Estimator::Body => {
+            parts.push("the body is being fitted".into());
+        }
         (None, _) => parts.push("no axis".into()),
     }
     ui.label(parts.join(" · "));

@@ -6,6 +6,7 @@ use egui_plot::{Line, Plot, PlotPoints, Points};
 use crate::app::estimators::{FittedBody, OutlineSector};
 use crate::ui::widgets::controls::hint;
 use crate::ui::widgets::marks::color32;
+use crate::ui::widgets::plot;
 use crate::view::BODY_AXIS_COLOR;
 
 /// The height of a chart, in logical pixels.
@@ -15,17 +16,7 @@ const HIDDEN: Color32 = Color32::from_rgb(0xe6, 0x9f, 0x00);
 
 /// A chart whose axes have the same scale, in centimeters.
 fn plot(ui: &Ui, name: &'static str) -> Plot<'static> {
-    Plot::new(name)
-        .data_aspect(1.0)
-        .height(HEIGHT)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .grid_color(ui.visuals().text_color().gamma_multiply(0.3))
-        .label_formatter(|_| None)
-        .show_x(false)
-        .show_y(false)
+    plot::still(ui, name).data_aspect(1.0).height(HEIGHT)
 }
 
 /// Shows ρ, the distance from the axis, against t, the place along it.

@@ -3,12 +3,9 @@
 use egui::{Grid, RichText, Ui};
 
 use crate::app::estimators::{BodyResult, FittedBody};
-use crate::estimate::{Estimate, Occlusion};
+use crate::estimate::{Estimate, Occlusion, SEEN_SHARE_SD};
 use crate::geometry::angle_between_lines_rad;
 use crate::ui::widgets::controls::{hint, small};
-
-/// The standard deviation of the seen share, of 1: it is stated in the estimators' documentation.
-const SEEN_SHARE_SD: f64 = 0.04;
 
 /// Shows the reasons, then the other axes.
 pub(super) fn show(ui: &mut Ui, body: &BodyResult, fitted: &FittedBody) {
